@@ -81,6 +81,9 @@ function ensembles.check_vary(call_fail, given, label)
     local each = type(value) == "table" and not made[value] and not native.kind(value) and rawget(value, "each")
     local of = distribution_of(each and value[1] or value)
     if not of then call_fail(("'%s.%s' must be %s"):format(label, key, allowed)) end
+    if type(each) == "table" and #each == 0 and next(each) == nil then
+      call_fail(("'%s.%s.each' is empty: there is nothing to draw for"):format(label, key))
+    end
     if each and (type(each) ~= "table" or #each == 0) then
       call_fail(("'%s.%s.each' must be a list, as in each = bolts"):format(label, key))
     end
@@ -111,6 +114,10 @@ local function drawn_list(name, list, who)
     __metatable = "list",
     __index = function(_, key)
       who.text = nil
+      if type(key) ~= "number" then
+        fail(native.line(), ("'%s' is a list of %d numbers, and has none called '%s'"):format(name, #list, tostring(key)),
+          ("its values are %s[1] to %s[%d], by numbers without quotes"):format(name, name, #list))
+      end
       fail(native.line(), ("'%s[%s]': '%s' is drawn for %d items of its 'each'"):format(name, tostring(key), name, #list),
         ("its values are %s[1] to %s[%d]"):format(name, name, #list))
     end,
@@ -197,6 +204,7 @@ function ensembles.run(self, asked, line)
   local n = size_of(given, #names, line)
   local rows, tour = native.draw(given.method, n, given.seed, drawn)
   local problems = problems_of(given, rows, names, drawn, line)
+  native.check_folder(problems[1], asked.case)
   local digits, members, last = ("%d"):format(#("%d"):format(n)), {}, nil
   local label = asked.case .. "_%0" .. digits .. "d"
   for _, i in ipairs(tour) do

@@ -205,6 +205,15 @@ int compare_members(LuaState&, lua_State* L) {
   return 1;
 }
 
+int check_folder_of_ensemble(LuaState& lua, lua_State* L) {
+  const DeckState& state = DeckState::of(lua);
+  const auto& problem = the_object_at(L, 1).as<std::shared_ptr<const Problem>>();
+  if (state.is_solving && state.options.write_files)
+    check_ensemble_folder(state.options.out,
+                          std::filesystem::path(file_name_of(problem->name)) / file_name_of(lua_tostring(L, 2)));
+  return 0;
+}
+
 int let_go_of_fields(LuaState&, lua_State* L) {
   Object& object = the_object_at(L, 1);
   DeckResult light = *object.as<DeckResultPtr>();

@@ -23,6 +23,8 @@ int draw_members(LuaState& state, lua_State* L);
 int call_member(LuaState& state, lua_State* L);
 //   difference_of_members(problem, other): what may not differ, or nothing
 int compare_members(LuaState& state, lua_State* L);
+//   check_folder(problem, case): refuses a folder that leads elsewhere
+int check_folder_of_ensemble(LuaState& state, lua_State* L);
 //   let_go(result): of fields and pictures, which only the case that starts from it needs
 int let_go_of_fields(LuaState& state, lua_State* L);
 //   conclude(ensemble, { case, method, seed, names, rows, members, problems, keeps_members },

@@ -272,6 +272,15 @@ int locals(LuaState& state, lua_State* L) {
   return 1;
 }
 
+// n_parameters(function): those that it names.
+int n_parameters(LuaState&, lua_State* L) {
+  lua_Debug function;
+  lua_pushvalue(L, 1);
+  lua_getinfo(L, ">u", &function);
+  lua_pushinteger(L, function.nparams);
+  return 1;
+}
+
 }  // namespace
 
 void push_native(DeckState& state) {
@@ -304,12 +313,14 @@ void push_native(DeckState& state) {
                                        {"draw", guarded<draw_members>},
                                        {"call_member", guarded<call_member>},
                                        {"difference_of_members", guarded<compare_members>},
+                                       {"check_folder", guarded<check_folder_of_ensemble>},
                                        {"let_go", guarded<let_go_of_fields>},
                                        {"conclude", guarded<conclude_ensemble>},
                                        {"read", guarded<read>},
                                        {"at", guarded<at>},
                                        {"compile", guarded<compile>},
                                        {"locals", guarded<locals>},
+                                       {"n_parameters", guarded<n_parameters>},
                                        {nullptr, nullptr}};
   lua_State* L = state.raw();
   luaL_newlib(L, functions);

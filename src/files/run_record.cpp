@@ -254,9 +254,15 @@ std::optional<RecordedRun> read_run_record(const std::filesystem::path& director
   const Json json = Json::parse(file, nullptr, false);
   if (!file || json.is_discarded()) return std::nullopt;
   try {
-    return RecordedRun{json.at("program").at("version"),  json.at("solver").at("name"),
-                       json.at("verdict") == "converged", json.at("iterations").at("all"),
-                       json.at("iterations").at("mean"),  json.at("seconds").at("all")};
+    return RecordedRun{.problem = json.at("problem"),
+                       .case_name = json.at("case"),
+                       .version = json.at("program").at("version"),
+                       .solver = json.at("solver").at("name"),
+                       .converged = json.at("verdict") == "converged",
+                       .interrupted = json.at("verdict") == "interrupted",
+                       .iterations = json.at("iterations").at("all"),
+                       .mean_iterations = json.at("iterations").at("mean"),
+                       .seconds = json.at("seconds").at("all")};
   } catch (const Json::exception&) {
     return std::nullopt;
   }

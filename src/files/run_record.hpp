@@ -15,8 +15,8 @@ const char* verdict(const RunResult& result);
 
 // What run.json in an output directory tells of the run; none where it is not there or cannot be read.
 struct RecordedRun {
-  std::string version, solver;
-  bool converged = true;
+  std::string problem, case_name, version, solver;
+  bool converged = true, interrupted = false;
   long iterations = 0;
   double mean_iterations = 0.0;
   double seconds = 0.0;

@@ -235,7 +235,29 @@ std::string spectrum_line(const Ensemble& ensemble, const OutputScatter& scatter
                      frequency_text(of.table->columns[0][at]), drive_at(scatter, at, n));
 }
 
+// Null: there is none, or none of ours.
+Json record_before(const std::filesystem::path& folder) {
+  try {
+    require_file(folder / own_file::ensemble);
+    return Json::parse(text_of_file((folder / own_file::ensemble).string()), nullptr, false);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+// "ensemble_07": no other case beside it is its own to remove, whatever the record says.
+bool is_called_as_member(const Ensemble& ensemble, const std::string& name) {
+  const std::string start = ensemble.name + "_";
+  return name.size() > start.size() && name.starts_with(start) &&
+         std::all_of(name.begin() + static_cast<long>(start.size()), name.end(),
+                     [](unsigned char c) { return std::isdigit(c); });
+}
+
 }  // namespace
+
+void check_ensemble_folder(const std::filesystem::path& out, const std::filesystem::path& folder) {
+  refuse_links(out, folder);
+}
 
 void write_ensemble(const std::filesystem::path& folder, const Ensemble& ensemble,
                     const std::vector<OutputScatter>& scatter) {
@@ -259,13 +281,12 @@ void write_ensemble(const std::filesystem::path& folder, const Ensemble& ensembl
 }
 
 void drop_members_before(const std::filesystem::path& folder, const Ensemble& ensemble, bool keeps_members) {
-  if (is_no_file(folder / own_file::ensemble)) return;
-  std::ifstream file(folder / own_file::ensemble);
-  const Json before = Json::parse(file, nullptr, false);
+  const Json before = record_before(folder);
   if (!before.is_object() || !before.contains("members") || !before["members"].is_array()) return;
   for (const Json& member : before["members"]) {
     if (!member.is_object() || !member.contains("name") || !member["name"].is_string()) continue;
     const std::string name = member["name"];
+    if (!is_called_as_member(ensemble, name)) continue;
     const bool is_own = std::any_of(ensemble.members.begin(), ensemble.members.end(),
                                     [&](const EnsembleMember& own) { return own.name == name; });
     if (!(is_own && keeps_members)) Manifest::clear(folder.parent_path() / file_name_of(name));

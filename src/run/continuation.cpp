@@ -85,6 +85,31 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
                     which));
 }
 
+// A folder that was moved, or given another's name.
+void check_is_result_of(const RecordedRun& recorded, const Problem& problem, const std::string& case_name,
+                        const fs::path& folder) {
+  if (recorded.problem == problem.name && recorded.case_name == case_name) return;
+  throw InputError(
+      fmt::format("'{}' holds the results of problem '{}', case '{}', not of problem '{}', case '{}'\n"
+                  "    give its folders their names: {}/{}",
+                  folder.string(), recorded.problem, recorded.case_name, problem.name, case_name, recorded.problem,
+                  recorded.case_name));
+}
+
+// A table that grows by a row an increment and has lost some, or has them in another order.
+void check_is_whole(const Table& table, const Problem& problem, const fs::path& file) {
+  if (table.step.empty() || table.names.front() != "time") return;
+  const std::vector<double>& time = table.columns.front();
+  for (size_t k = 0; k < problem.steps.size(); ++k) {
+    const auto n = std::count(table.step.begin(), table.step.end(), static_cast<int>(k));
+    if (n > 0 && n < problem.steps[k]->n_increments())
+      throw InputError(fmt::format("{} has {} rows of step '{}', which has {} increments: it is cut off", file.string(),
+                                   n, problem.steps[k]->name, problem.steps[k]->n_increments()));
+  }
+  if (!std::is_sorted(time.begin(), time.end()) || !std::is_sorted(table.step.begin(), table.step.end()))
+    throw InputError(fmt::format("{}: its rows are not in the order of time", file.string()));
+}
+
 }  // namespace
 
 Continuation::Continuation(const ContinueOptions& asked) : options_(asked) {
@@ -275,6 +300,7 @@ std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& pr
     none->interrupted = true;  // the deck stops here
     return none;
   }
+  check_is_result_of(*recorded, problem, request.case_name, folder);
   auto result = std::make_shared<RunResult>();
   result->converged = recorded->converged;
   result->iterations = recorded->iterations;
@@ -290,6 +316,7 @@ std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& pr
       if (!table.has_column(column.name))
         throw InputError(fmt::format("{} has no column '{}': it is not the table of output '{}'", file.string(),
                                      column.name, output->name));
+    if (!recorded->interrupted) check_is_whole(table, problem, file);
   }
   if (resumes() && recorded->converged && fs::exists(folder / state_file_name))
     result->interface_fields = read_state(folder / state_file_name).fields;

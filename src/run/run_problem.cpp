@@ -14,6 +14,7 @@
 #include "base/progress.hpp"
 #include "base/team.hpp"
 #include "files/bolt_table.hpp"
+#include "files/files.hpp"
 #include "files/replacement.hpp"
 #include "latin/latin.hpp"
 #include "model/own_files.hpp"
@@ -200,7 +201,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
 struct RunSite {
   RunSite(const Problem& problem, const RunRequest& request)
       : directory(request.replaces.empty() ? request.out / problem.name / request.case_name : request.replaces),
-        lock(request.lock || !request.write_files ? request.lock : std::make_shared<RunLock>(directory)) {
+        lock(request.lock || !request.write_files ? request.lock : own_lock(problem, request)) {
     if (!request.replaces.empty() && !request.is_in_place) replacement.emplace(request.replaces);
     work = replacement ? replacement->work() : directory;
   }
@@ -215,6 +216,12 @@ struct RunSite {
   SharePlan plan;
   Unwritten unwritten;
   bool is_kept = true;  // false: what is in the folder reaches further
+
+  // In a folder from somebody else these would lead to a third one.
+  std::shared_ptr<RunLock> own_lock(const Problem& problem, const RunRequest& request) const {
+    if (request.replaces.empty()) refuse_links(request.out, std::filesystem::path(problem.name) / request.case_name);
+    return std::make_shared<RunLock>(directory);
+  }
 
   // Does its checkpoint stay, to go on from?
   bool can_go_on(const RunResult& result) const {

@@ -149,24 +149,33 @@ problem{ name = "long", substructures = { low, high }, interfaces = { seam }, su
   steps = { step.dynamic{ name = "push", duration = p.n*us, dt = 1*us, loads = { load.pressure{ on = high:face "zmax", history = 5*MPa } } } },
   solver = solver.latin{ integration = "implicit" }, outputs = { output.energy{}, output.vtk{ frames = 1000 }, output.joint{ name = "joint", on = seam } } }:run{}
 """)
-    words = [PROGRAM, "run", str(deck), "--quiet", "--threads", "1", "--out", str(FOLDER / "long")]
+    for limit, name, field in ((resource.RLIMIT_AS, "addresses", "VmPeak"), (resource.RLIMIT_DATA, "data", "VmData")):
+        less_memory(deck, FOLDER / f"long_{name}", limit, field)
+
+
+def less_memory(deck, out, limit, field):
+    words = [PROGRAM, "run", str(deck), "--quiet", "--threads", "1", "--out", str(out)]
     process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     most = 0
     while process.poll() is None:
         try:
-            most = max(most, int(pathlib.Path(f"/proc/{process.pid}/status").read_text().split("VmPeak:")[1].split()[0]))
+            most = max(most, int(pathlib.Path(f"/proc/{process.pid}/status").read_text().split(field + ":")[1].split()[0]))
         except (OSError, IndexError):
             pass
         time.sleep(0.001)
     if process.returncode != 0 or most > 4e6:  # kB; a build with sanitizers asks for terabytes of addresses
         print(f"little memory: not tried, exit {process.returncode}, {most} kB")
         return
-    limit = 1024 * most + (40 << 20)  # the heap grows by 32 MB at a time
-    done = subprocess.run([*words, "--set", "n=1000000"], capture_output=True, text=True, check=False,
-                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    bytes_allowed = 1024 * most + (40 << 20)  # the heap grows by 32 MB at a time
+    try:
+        done = subprocess.run([*words, "--set", "n=1000000"], capture_output=True, text=True, check=False, timeout=300,
+                              preexec_fn=lambda: resource.setrlimit(limit, (bytes_allowed, bytes_allowed)))
+    except subprocess.TimeoutExpired:
+        check(False, f"little memory ({field}): hangs")
+        return
     output = done.stdout + done.stderr
-    check(done.returncode == 3 and "not enough memory" in output, f"little memory: exit {done.returncode}\n{output[-1000:]}")
-    run = FOLDER / "long" / "long" / "base"
+    check(done.returncode == 3 and "not enough memory" in output, f"little memory ({field}): exit {done.returncode}\n{output[-1000:]}")
+    run = out / "long" / "base"
     check(f"earlier results are in {run}" in output, output[-1000:])
     check(len((run / "energy.csv").read_text().splitlines()) > 5000, "the table of a run that met its end by memory")
     check(json.loads((run / "run.json").read_text())["stopped_by"].startswith("not enough memory"), "the record hides it")

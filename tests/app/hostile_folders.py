@@ -10,6 +10,7 @@ import pathlib
 import resource
 import shutil
 import signal
+import stat
 import struct
 import subprocess
 import sys
@@ -246,7 +247,177 @@ def states_that_are_not_what_they_say(whole):
     dygita("continue", copy, "--tolerance", "1e-9", "--quiet", expected=2, says="does not fit into memory")
 
 
+def replaced_by(path, kind, others):
+    """What somebody may have put in the place of a file of ours; `others` is a file of somebody's."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    path.unlink(missing_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "endless":
+        path.symlink_to("/dev/zero")
+    elif kind == "device":
+        os.mknod(path, stat.S_IFCHR | 0o666, os.makedev(1, 5))
+    elif kind == "link":
+        path.symlink_to(others)
+    elif kind == "second name":
+        os.link(others, path)
+    elif kind == "folder":
+        path.mkdir()
+    else:
+        path.write_bytes(b"")
+        os.truncate(path, {"empty": 0, "huge": 60 << 30}[kind])
+
+
+KINDS = ["pipe", "endless", "link", "second name", "folder", "empty", "huge"] + (["device"] if os.geteuid() == 0 else [])
+
+
+def members_before():
+    """An ensemble that runs where another has run: it takes away the members of that one, and nothing else."""
+    whole = FOLDER / "members"
+    run(whole, deck="ensemble.lua")
+
+    def over(name, prepare, expected=0, says=""):
+        out, others = FOLDER / "over", FOLDER / "others"
+        for path in (out, others):
+            shutil.rmtree(path, ignore_errors=True)
+        shutil.copytree(whole, out)
+        shutil.copytree(whole / "struck" / "ensemble_1", others / "run")
+        (others / "precious").write_text("precious")
+        prepare(out / "struck", others)
+        before = {p: p.read_bytes() for p in others.rglob("*") if p.is_file()}
+        dygita("run", DECKS / "ensemble.lua", "--quiet", "--threads", 1, "--out", out, "--set", "n=3", expected=expected, says=says)
+        after = {p: p.read_bytes() for p in others.rglob("*") if p.is_file()}
+        check(before == after, f"an ensemble over {name}: files of somebody else came, went or changed")
+        return out / "struck"
+
+    def linked(name):
+        def prepare(struck, others):
+            replaced_by(struck / name, "link", others / "run")
+        return prepare
+
+    out = over("its members", lambda struck, others: None)
+    check(sorted(p.name for p in out.iterdir()) == ["ensemble", "ensemble_1", "ensemble_2", "ensemble_3"], "the members that were before")
+    over("a folder of statistics that is a link", linked("ensemble"), 2, "is a link, and files would be written where it leads: remove it")
+    over("a member that is a link", linked("ensemble_1"), 2, "is a link, and files would be written where it leads: remove it")
+    over("a member before that is a link", linked("ensemble_4"))
+
+    def names_others(struck, others):
+        record = json.loads((struck / "ensemble" / "ensemble.json").read_text())
+        names = ["base", "ensemble_notes", "..", "../others/run", "", "ensemble", "ensemble_", "ensemble_4/../base"]
+        (struck / "ensemble" / "ensemble.json").write_text(json.dumps(dict(record, members=[{"name": name} for name in names])))
+        for name in ("base", "ensemble_notes"):
+            shutil.copytree(struck / "ensemble_1", struck / name)
+
+    out = over("a record that names other cases", names_others)
+    check(all((out / name / "run.json").exists() for name in ("base", "ensemble_notes")), "cases that are no members went")
+    for kind in KINDS:
+        expected = (0, 2) if kind == "folder" else 0
+        over(f"a record that is of kind '{kind}'", lambda struck, others: replaced_by(struck / "ensemble" / "ensemble.json", kind, others / "precious"), expected)
+        over(f"a table that is of kind '{kind}'", lambda struck, others: replaced_by(struck / "ensemble" / "top.csv", kind, others / "precious"), expected)
+        listed = "ensemble_4/.dygita-files"
+        over(f"a list that is of kind '{kind}'", lambda struck, others: replaced_by(struck / listed, kind, others / "precious"), (0, 2) if kind == "huge" else 0)
+    over("a list of files elsewhere", lambda struck, others: (struck / "ensemble_4" / ".dygita-files").write_text(f"../../../others/precious\n{others}/precious\n"))
+
+
+def members_that_go_on():
+    """A killed ensemble is continued from its members' folders: each is asked whose it is, and whether it is whole."""
+    killed(FOLDER / "stopped_members", "struck/ensemble_2", "--set", "us=2000", deck="ensemble.lua")
+
+    def go_on(name, prepare, expected, says=""):
+        out, others = FOLDER / "going_on", FOLDER / "others"
+        for path in (out, others):
+            shutil.rmtree(path, ignore_errors=True)
+        shutil.copytree(FOLDER / "stopped_members", out)
+        shutil.copytree(out / "struck" / "ensemble_1", others / "run")
+        (others / "precious").write_text("precious")
+        prepare(out / "struck", others)
+        before = {p: p.read_bytes() for p in others.rglob("*") if p.is_file()}
+        dygita("continue", out / "struck", "--quiet", "--threads", 1, expected=expected, says=says)
+        check(before == {p: p.read_bytes() for p in others.rglob("*") if p.is_file()}, f"continued with {name}: files of somebody else changed")
+
+    def exchanged(struck, others):
+        (struck / "ensemble_1").rename(struck / "aside")
+        (struck / "ensemble_4").rename(struck / "ensemble_1")
+        (struck / "aside").rename(struck / "ensemble_4")
+
+    def lines(file, change):
+        def prepare(struck, others):
+            rows = (struck / file).read_text().splitlines()
+            (struck / file).write_text("\n".join(change(rows)) + "\n")
+        return prepare
+
+    # The members go from neighbour to neighbour: 1, 4, 2, 3.
+    go_on("nothing done to it", lambda struck, others: None, 0)
+    go_on("members exchanged", exchanged, 2, "case 'ensemble_4', not of problem 'struck', case 'ensemble_1'")
+    go_on("rows cut off", lines("ensemble_1/top.csv", lambda rows: rows[:-3]), 2, "top.csv has 3998 rows of step 'push', which has 4000 increments: it is cut off")
+    go_on("rows in another order", lines("ensemble_4/top.csv", lambda rows: rows[:5] + rows[6:4:-1] + rows[7:]), 2, "rows are not in the order of time")
+    go_on("statistics that lead elsewhere", lambda struck, others: replaced_by(struck / "ensemble", "link", others / "run"), 2, "is a link, and files would be written")
+    go_on("a member to come that leads elsewhere", lambda struck, others: replaced_by(struck / "ensemble_3", "link", others / "run"), 2)
+    for kind in KINDS:
+        for file, expected in (("ensemble_2/checkpoint.dygita", 2), ("ensemble_1/joint.csv", 2), ("ensemble_4/state.dygita", 2), ("ensemble_1/run.json", (0, 2)),
+                               (".ensemble_3.lock", 0 if kind in ("empty", "huge") else 2)):
+            go_on(f"{file} of kind '{kind}'", lambda struck, others: replaced_by(struck / file, kind, others / "precious"), expected)
+
+
+def meshes_kept():
+    """The folder of meshes beside a deck: what is there is taken where it is signed, else it is as if it were not there."""
+    scene, out = FOLDER / "meshes", FOLDER / "meshed"
+    scene.mkdir()
+    shutil.copy(DECKS.parent / "intake" / "ring_on_plate.step", scene / "a.step")
+    deck = scene / "deck.lua"
+    deck.write_text("""
+local s = substructure{ name = "s", mesh = mesh.step{ file = "a.step", size = 20*mm, parts = { "1" } }:part "1",
+  material = material.elastic{ name = "m", young = 200*GPa, poisson = 0.3, density = 7800 } }
+problem{ name = "p", substructures = { s }, supports = { support.fixed{ name = "f", on = s:face "surface1" } },
+  steps = { step.static{ name = "g", loads = { load.gravity{ z = -10 } } } },
+  outputs = { output.history{ name = "u", on = s:face "surface2", quantity = "displacement" } } }:run{}
+""")
+    os.environ["XDG_STATE_HOME"] = str(FOLDER / "home")
+    words = ["run", deck, "--quiet", "--threads", 1, "--out", out]
+    dygita(*words, expected=0)
+    table, kept = (out / "p" / "base" / "u.csv").read_bytes(), scene / ".dygita"
+    entries = list(kept.glob("*.mesh"))
+    check(len(entries) == 1, f"{len(entries)} meshes kept")
+    entry, whole = entries[0], entries[0].read_bytes()
+    secret = FOLDER / "home" / "dygita" / "secret"
+    own, others = secret.read_bytes(), scene / "others"
+    others.write_text("precious")
+    lies = {"cut": whole[:len(whole) // 2], "head": whole[:46], "length": whole[:46] + b"\xff" * 8 + whole[54:], "sign": whole[:46] + struct.pack("<Q", 1 << 63) + whole[54:]}
+
+    def meshed(name, prepare):
+        replaced_by(kept, "folder", others)
+        entry.write_bytes(whole)
+        shutil.rmtree(secret.parent)
+        secret.parent.mkdir()
+        secret.write_bytes(own)
+        secret.chmod(0o600)
+        prepare()
+        before = names_below(FOLDER)
+        dygita(*words, expected=0)
+        new = {n for n in names_below(FOLDER) - before if not n.startswith("meshes/.dygita")}
+        check((out / "p" / "base" / "u.csv").read_bytes() == table, f"a mesh kept: {name}: another answer")
+        check(not new and others.read_text() == "precious", f"a mesh kept: {name}: {new} came, or what others have changed")
+
+    meshed("whole", lambda: None)
+    for name, lie in lies.items():
+        meshed(name, lambda: entry.write_bytes(lie))
+    for kind in KINDS:
+        meshed(f"entry of kind '{kind}'", lambda: replaced_by(entry, kind, others))
+        meshed(f"secret of kind '{kind}'", lambda: replaced_by(secret, kind, others))
+        if kind != "second name":
+            meshed(f"folder of kind '{kind}'", lambda: replaced_by(kept, kind, scene if kind == "link" else others))
+    meshed("secret of all", lambda: secret.chmod(0o644))
+    if os.geteuid() == 0:
+        meshed("secret of another user", lambda: os.chown(secret, 65534, 65534))
+    del os.environ["XDG_STATE_HOME"]
+
+
 def main():
+    members_before()
+    members_that_go_on()
+    meshes_kept()
     files_too_large()
     files_that_may_not_grow()
     run(FOLDER / "whole")

@@ -173,6 +173,13 @@ def to_all(name):
         failures.append(f"{name}: {to_neighbours:.0f} bytes to neighbours and {of_all:.0f} to all in an iteration; a field of the interfaces: {one_field}")
 
 
+def is_running(process):
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
 def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=150, whole_on=1):
     """A rank that dies ends the run; any number of ranks go on with what was computed, to the bits of a run that was never stopped (in one process; on as many ranks, where these cut it)."""
     words = ["run", deck, "--set", f"us={us}", "--checkpoint-every", "0.02s", "--no-frames", "--quiet", "--threads", "1", *solver, "--out"]
@@ -192,10 +199,20 @@ def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=150, 
             process.kill()
             return
         time.sleep(0.01)
-    os.kill(ranks_of(process.pid)[-1] if killed > 1 else process.pid, signal.SIGKILL)
+    ranks = ranks_of(process.pid) if killed > 1 else [process.pid]
+    os.kill(ranks[-1], signal.SIGKILL)
     said = process.communicate(timeout=100)[1]
     if process.returncode == 0 or (killed > 1 and "signal 9" not in said):
         failures.append(f"{name}: a rank was killed: mpirun exits with {process.returncode}\n{said}")
+    begun = time.monotonic()
+    while any(is_running(rank) for rank in ranks) and time.monotonic() < begun + 30:
+        time.sleep(0.1)
+    if left := [rank for rank in ranks if is_running(rank)]:
+        failures.append(f"{name}: a rank was killed, and {left} run on")
+    kept = run / "continue.txt"
+    wanted = [f"    dygita continue {run}"] + [f"    mpirun -n {killed} dygita continue {run}"] * (killed > 1)
+    if not kept.exists() or [line for line in kept.read_text().splitlines() if line.startswith("    ")] != wanted:
+        failures.append(f"{name}: {kept} does not say how to continue: {kept.read_text() if kept.exists() else 'not there'}")
     said = dygita(then, "continue", run, "--no-frames", "--threads", "1", expected=0, says=["increments are replayed"])
     if "differ in their last digits" in said:
         failures.append(f"{name}: the increments gone over differ\n{said}")
