@@ -55,7 +55,8 @@ local function check_number(call, argument, value, label)
   if range and (value < range[1] or value > range[2]) then
     fail(call, ("'%s' = %s is outside the plausible range %s"):format(label, with_unit(("%g"):format(value), unit),
       with_unit(("[%g, %g]"):format(range[1], range[2]), unit)),
-      unit and "a bare number is SI; was a unit forgotten, or the wrong one used?")
+      argument.in_radians and ("an angle is in radians: %g degrees are %g*deg"):format(value, value)
+        or unit and "a bare number is SI; was a unit forgotten, or the wrong one used?")
   end
   local usual = argument.usual
   if usual and (value < usual[1] or value > usual[2]) then
@@ -359,7 +360,14 @@ end
 
 function types.value(call, argument, value, label)
   if type(value) == "number" then return check_number(call, argument, value, label) end
-  if type(value) == "function" then return value end
+  if type(value) == "function" then
+    local n = native.n_parameters(value)
+    if n > 1 then
+      fail(call, ("'%s' is a function of %d arguments; a history is one of time alone"):format(label, n),
+        "as in function(t) return 100*t end: it is the same at all its places")
+    end
+    return value
+  end
   if native.kind(value) ~= "history" then
     wrong_type(call, label, of_unit("a number", argument.unit) .. ", a history or a function of time", value)
   end

@@ -17,6 +17,17 @@ local function unit(a)
   return length > 0 and sum(a, 1 / length, a, 0) or nil
 end
 
+-- A vector of a frame as a deck reads it: another one would be printed and not used.
+local function fixed(vector, name)
+  return setmetatable({}, {
+    __index = vector,
+    __len = function() return 3 end,
+    __pairs = function() return next, vector, nil end,
+    __newindex = function() native.fail(native.line(), ("%s of a frame cannot be changed\n    make another frame: frame{ origin = ..., axis = ... }"):format(name)) end,
+    __metatable = false,
+  })
+end
+
 function frames.make(entry, given, line)
   local function refuse(text, hint) native.fail(line, entry.path .. ": " .. text .. "\n    " .. hint) end
   local z, x = unit(given.axis), given.x and unit(given.x)
@@ -31,7 +42,9 @@ function frames.make(entry, given, line)
   local y, o = cross(z, across), given.origin
   local p = { across[1], y[1], z[1], across[2], y[2], z[2], across[3], y[3], z[3], o[1], o[2], o[3] }
   if given.frame then p = placement.after(made[given.frame], p) end
-  local frame = environment.read_only({ x = axis_of(p, 1), y = axis_of(p, 2), z = axis_of(p, 3), origin = origin_of(p) }, "a frame")
+  local frame = environment.read_only({
+    x = fixed(axis_of(p, 1), "x"), y = fixed(axis_of(p, 2), "y"), z = fixed(axis_of(p, 3), "z"), origin = fixed(origin_of(p), "origin"),
+  }, "a frame")
   made[frame] = p
   return frame
 end
@@ -71,7 +84,7 @@ local function turn_box(p, given)
   local low, high, where = given.low, given.high, given.where
   local by = 1e-8
   for i = 1, 3 do by = math.max(by, 1e-6 * math.abs(low[i]), 1e-6 * math.abs(high[i])) end
-  given.low, given.high = nil, nil
+  given.low, given.high, given.box = nil, nil, { low[1], low[2], low[3], high[1], high[2], high[3] }
   given.where = function(x, y, z)
     local at = { coordinates(p, x, y, z) }
     for i = 1, 3 do
@@ -130,6 +143,7 @@ end
 -- Turns what a call says in its `frame` into the axes of the deck, in place.
 function frames.apply(entry, given, line)
   local p, names, kinds = made[given.frame], {}, {}
+  if entry.tells_frame then given.seen_from = p end  -- messages then say where things are in it
   if not entry.keeps_frame then given.frame = nil end
   for _, argument in ipairs(entry.arguments) do
     local key, kind = argument[1], argument.in_frame

@@ -269,7 +269,7 @@ words[3] = {
           { "translate", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "translation" },
           { "rotate", type = "table", doc = "rotation before it", fields = {
             { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
-            { "angle", type = "number", range = { -7, 7 }, required = true, doc = "angle, in radians: `30*deg`" },
+            { "angle", type = "number", range = { -7, 7 }, in_radians = true, required = true, doc = "angle, in radians: `30*deg`" },
             { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
           } },
         } },
@@ -282,7 +282,7 @@ words[3] = {
         fields = {
           { "axis", type = "vector", required = true, doc = "direction of the cylinder's axis; its length does not matter" },
           { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of it" },
-          { "angle", type = "number", range = { -7, 7 }, default = 0, doc = "by which axes 1 and 2 are turned about axis 3, in radians: 90*deg lays axis 1 along the cylinder" },
+          { "angle", type = "number", range = { -7, 7 }, in_radians = true, default = 0, doc = "by which axes 1 and 2 are turned about axis 3, in radians: 90*deg lays axis 1 along the cylinder" },
         } },
       { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it",
         doc = "of its motion in dynamic steps of solver.latin: explicit needs no factor and uses as many increments per dt as its cells require" },
@@ -340,7 +340,7 @@ words.frame = {
       { "origin", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "its origin" },
       { "axis", type = "vector", default = { 0, 0, 1 }, doc = "its z axis; the length does not matter" },
       { "x", type = "vector", default_doc = "x, or y where the axis is along x", doc = "direction of its x axis, of which what lies across `axis` counts" },
-      { "angle", type = "number", range = { -7, 7 }, default = 0, doc = "by which x and y are then turned about `axis`, in radians: `17*deg`" },
+      { "angle", type = "number", range = { -7, 7 }, in_radians = true, default = 0, doc = "by which x and y are then turned about `axis`, in radians: `17*deg`" },
       frame "in whose axes the other arguments are",
     },
   },
@@ -362,7 +362,7 @@ words.pattern = {
       circle_of, circle_n,
       { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
       { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
-      { "angle", type = "number", range = { -7, 7 }, default_doc = "360 deg / n", doc = "from one to the next, in radians" },
+      { "angle", type = "number", range = { -7, 7 }, in_radians = true, default_doc = "360 deg / n", doc = "from one to the next, in radians" },
     },
   },
   {
@@ -937,7 +937,9 @@ words[10] = {
   {
     "joint", makes = "output",
     doc = "History of an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
-      .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J).",
+      .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J). `slip` is how far the two sides have moved on each other along the joint, while "
+      .. "closed, from the first step on, at the point where that is farthest: there and back again is none, `friction_work` counts the way. `opening` is that "
+      .. "of the point where its size is largest.",
     arguments = { name_of "output", on({ "interface", "support.wall" }, "interfaces or walls") },
   },
   {
@@ -1127,7 +1129,7 @@ local methods = {
     argument = { "set", type = "text", doc = "the set's name" },
   },
   {
-    kind = "substructure", "face", write = "part:face \"group\"", makes = "face",
+    kind = "substructure", "face", write = "part:face \"group\"", makes = "face", tells_frame = true,
     doc = "A named group of facets: xmin ... zmax of a box; of a file the surface group `part.group`, or `group` on the "
       .. "part's boundary.",
     argument = { "group", type = "text", doc = "the group's name" },

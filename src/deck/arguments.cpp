@@ -107,7 +107,7 @@ std::array<Vec3, 2> LuaArguments::two_vectors_at(const char* key, const Vec3& x)
         is_right = false;
         continue;
       }
-      is_right &= lua_rawgeti(L_, i - 2, d + 1) == LUA_TNUMBER;
+      is_right &= lua_geti(L_, i - 2, d + 1) == LUA_TNUMBER;  // a frame's, too
       vectors[static_cast<size_t>(i)][d] = lua_tonumber(L_, -1);
       lua_pop(L_, 1);
     }

@@ -17,13 +17,39 @@ namespace dygita {
 
 namespace {
 
-std::string extent(const Points& nodes, const Vec3& place) {
+// As a deck writes places and directions: in its axes, or in those of a frame.
+struct View {
+  Mat3 axes = Mat3::Identity();  // columns
+  Vec3 origin = Vec3::Zero();    // m
+  bool is_frame = false;
+
+  Vec3 place(const Vec3& x) const { return axes.transpose() * (x - origin); }
+  Vec3 direction(const Vec3& v) const { return axes.transpose() * v; }
+  double height(double at, const Vec3& normal) const { return at - normal.dot(origin); }
+  // What turning leaves of nothing is nothing.
+  static double plain(double value, double size) { return std::abs(value) < 1e-12 * size ? 0.0 : value; }
+  const char* called() const { return is_frame ? " of the frame" : ""; }
+};
+
+View view_of(const LuaArguments& a) {
+  if (!a.has("seen_from")) return {};
+  const std::vector<double> p = a.numbers("seen_from");  // of a placement, lua/placement.lua
+  CHECK(p.size() == 12, "a frame is twelve numbers");
+  View view;
+  view.axes = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(p.data());
+  view.origin = Vec3(p[9], p[10], p[11]);
+  view.is_frame = true;
+  return view;
+}
+
+std::string extent(const Points& nodes, const Vec3& place, const View& view) {
+  const Points seen = view.axes.transpose() * (nodes.colwise() + (place - view.origin));
+  const double size = view.is_frame ? seen.cwiseAbs().maxCoeff() : 0.0;
   std::string text;
-  for (int i = 0; i < 3; ++i) {
-    text += fmt::format("{}{} [{:g}, {:g}]", i ? ", " : "", "xyz"[i], nodes.row(i).minCoeff() + place[i],
-                        nodes.row(i).maxCoeff() + place[i]);
-  }
-  return text + " m";
+  for (int i = 0; i < 3; ++i)
+    text += fmt::format("{}{} [{:g}, {:g}]", i ? ", " : "", "xyz"[i], View::plain(seen.row(i).minCoeff(), size),
+                        View::plain(seen.row(i).maxCoeff(), size));
+  return text + " m" + view.called();
 }
 
 // Does the deck's function at stack index `function` answer true at x?
@@ -55,7 +81,7 @@ Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin
     throw InputError(origin,
                      fmt::format("substructure '{}': 'where' selects none of its {} nodes\n    they span {}; compare "
                                  "coordinates with near(a, b)",
-                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place)));
+                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place, {})));
   }
   return region;
 }
@@ -63,15 +89,15 @@ Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin
 namespace {
 
 // Where along a normal there are facets of it: "; along that normal there are some at 0.06 m".
-std::string places_along(const Substructure& part, FacetPick pick) {
+std::string places_along(const Substructure& part, FacetPick pick, const View& view) {
   if (!pick.at) return "";
   pick.at.reset();
   std::set<double> places;
   for (const Facet& facet : pick_facets(*part.mesh, part.place, pick)) {
     Vec3 middle = Vec3::Zero();
     for (const int node : facet.corners()) middle += part.mesh->nodes.col(node) + part.place;
-    places.insert(
-        std::stod(fmt::format("{:.6g}", pick.normal->dot(middle) / static_cast<double>(facet.corners().size()))));
+    const double at = pick.normal->dot(middle) / static_cast<double>(facet.corners().size());
+    places.insert(std::stod(fmt::format("{:.6g}", view.height(at, *pick.normal))));
   }
   constexpr size_t most = 5;
   if (places.empty() || places.size() > most) return places.empty() ? "; no facet matches at any 'at'" : "";
@@ -89,7 +115,8 @@ struct Level {
 
 // A normal by itself fits steps and recesses, too: "16 facets of 400 mm^2 around (5, 5, 10) mm ('at' = 0.01), ...",
 // where it fits surfaces at several heights.
-std::string several_levels(const Substructure& part, const Vec3& normal, const std::vector<Facet>& facets) {
+std::string several_levels(const Substructure& part, const Vec3& normal, const std::vector<Facet>& facets,
+                           const View& view) {
   constexpr double alike = 1e-4;  // of the part's size
   constexpr size_t most_told = 5;
   std::vector<Vec3> areas, normals;
@@ -124,11 +151,36 @@ std::string several_levels(const Substructure& part, const Vec3& normal, const s
   std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.area > b.area; });
   std::string text;
   for (size_t i = 0; i < std::min(levels.size(), most_told); ++i) {
-    const Vec3 centre = 1e3 / levels[i].area * levels[i].moment;
+    const Vec3 centre = 1e3 * view.place(levels[i].moment / levels[i].area);
     text += fmt::format("{}{} facets, {:.4g} mm^2 around ({:.4g}, {:.4g}, {:.4g}) mm (at = {:.6g})", i == 0 ? "" : "; ",
-                        levels[i].n_facets, 1e6 * levels[i].area, centre[0], centre[1], centre[2], levels[i].at);
+                        levels[i].n_facets, 1e6 * levels[i].area, centre[0], centre[1], centre[2],
+                        view.height(levels[i].at, normal));
   }
-  return fmt::format("surfaces at {} heights: {}{}", levels.size(), text, levels.size() > most_told ? "; ..." : "");
+  return fmt::format("surfaces at {} heights{}: {}{}", levels.size(), view.called(), text,
+                     levels.size() > most_told ? "; ..." : "");
+}
+
+// What the deck asks of a face: "normal 0 0 1, at 0.01 m".
+std::string told_as(const LuaArguments& a, const FacetPick& pick, const View& view) {
+  std::string text;
+  const auto note = [&](const std::string& one) { text += (text.empty() ? "" : ", ") + one; };
+  const auto vector = [&](Vec3 v) {
+    for (double& x : v) x = View::plain(x, view.is_frame ? v.norm() : 0.0);
+    return fmt::format("{:.4g} {:.4g} {:.4g}", v[0], v[1], v[2]);
+  };
+  if (pick.normal) note("normal " + vector(view.direction(*pick.normal)));
+  if (pick.at) note(fmt::format("at {:g} m", pick.normal ? view.height(*pick.at, *pick.normal) : *pick.at));
+  if (pick.radius) note(fmt::format("radius {:g} m", *pick.radius));
+  if (pick.axis) note("axis " + vector(view.direction(*pick.axis)));
+  if (pick.is_cylinder) note("cylinder");
+  if (pick.box) note("from " + vector(pick.box->first) + " to " + vector(pick.box->second) + " m");
+  if (view.is_frame && a.has("box")) {
+    const std::vector<double> box = a.numbers("box");
+    note("from " + vector({box[0], box[1], box[2]}) + " to " + vector({box[3], box[4], box[5]}) + " m");
+  } else if (pick.where) {
+    note("where");
+  }
+  return text + (text.empty() ? "" : view.called());
 }
 
 }  // namespace
@@ -136,20 +188,13 @@ std::string several_levels(const Substructure& part, const Vec3& normal, const s
 Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& part, lua_State* L, const Origin& origin) {
   const LuaArguments a(L, 3, "substructure:face", origin, folder);
   FacetPick pick;
-  std::string by;
-  const auto note = [&](const std::string& text) { by += (by.empty() ? "" : ", ") + text; };
-  const auto vector = [](const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v[0], v[1], v[2]); };
-  if (a.has("normal")) note("normal " + vector(*(pick.normal = a.unit_vector("normal"))));
-  if (a.has("at")) note(fmt::format("at {:g} m", *(pick.at = a.number("at"))));
-  if (a.has("radius")) note(fmt::format("radius {:g} m", *(pick.radius = a.number("radius"))));
-  if (a.has("axis")) note("axis " + vector(*(pick.axis = a.unit_vector("axis"))));
+  if (a.has("normal")) pick.normal = a.unit_vector("normal");
+  if (a.has("at")) pick.at = a.number("at");
+  if (a.has("radius")) pick.radius = a.number("radius");
+  if (a.has("axis")) pick.axis = a.unit_vector("axis");
   pick.is_cylinder = a.boolean("cylinder");
-  if (pick.is_cylinder) note("cylinder");
   if (a.has("low") != a.has("high")) throw InputError(origin, "'low' and 'high' are two corners of a box: give both");
-  if (a.has("low")) {
-    pick.box = {a.vector("low"), a.vector("high")};
-    note("from " + vector(pick.box->first) + " to " + vector(pick.box->second) + " m");
-  }
+  if (a.has("low")) pick.box = {a.vector("low"), a.vector("high")};
   if (pick.at && !pick.normal) throw InputError(origin, "'at' is a position along 'normal', which is missing");
   if ((pick.radius || pick.axis) && !pick.is_cylinder)
     throw InputError(origin, "'radius' and 'axis' require cylinder = true");
@@ -157,19 +202,20 @@ Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& par
     lua_getfield(L, 3, "where");
     const int function = lua_gettop(L);
     pick.where = [&, function](const Vec3& x) { return answers_true(L, function, x, part->name, origin); };
-    note("where");
   }
+  const View view = view_of(a);
+  const std::string by = told_as(a, pick, {}), told = told_as(a, pick, view);  // which it is called by, and in the deck
   if (by.empty()) throw InputError(origin, "part:face{} requires 'normal', 'cylinder', 'low' and 'high', or 'where'");
   const auto facets = std::make_shared<const std::vector<Facet>>(pick_facets(*part->mesh, part->place, pick));
   if (facets->empty())
     throw InputError(
-        origin, fmt::format("substructure '{}' has no facet on its boundary of {}\n    it spans {}{}", part->name, by,
-                            extent(part->mesh->nodes, part->place), places_along(*part, pick)));
+        origin, fmt::format("substructure '{}' has no facet on its boundary of {}\n    it spans {}{}", part->name, told,
+                            extent(part->mesh->nodes, part->place, view), places_along(*part, pick, view)));
   if (pick.normal && !pick.at && !pick.where && !pick.is_cylinder)
-    if (const std::string levels = several_levels(*part, *pick.normal, *facets); !levels.empty())
+    if (const std::string levels = several_levels(*part, *pick.normal, *facets, view); !levels.empty())
       warn(fmt::format(
           "{}substructure '{}': face ({}) is {}; 'at' selects one of them, a 'where' that returns true confirms all",
-          origin.prefix(), part->name, by, levels));
+          origin.prefix(), part->name, told, levels));
   return {part, "(" + by + ")", facets};
 }
 

@@ -270,10 +270,7 @@ class ConditionsBuilder {
     }
     if (held.n == 3 || rest.norm() < 1e-6) {
       if (support && !motion.empty()) moves_alike(std::move(motion), held, *support, part, node, direction);
-      if (!moves.empty() && !support)
-        throw InputError(
-            origin, fmt::format("{} moves node {} of substructure '{}', which is already held in that direction", name,
-                                node, problem_.substructures[part]->name));
+      if (!moves.empty() && !support) refuse_second_motion(held, part, node, direction, name, origin);
       return;
     }
     for (auto& [index, factor] : motion) factor /= rest.norm();
@@ -283,6 +280,21 @@ class ConditionsBuilder {
     held.motion[held.n] = std::move(motion);
     held.support[held.n] = support;
     ++held.n;
+  }
+
+  [[noreturn]] void refuse_second_motion(const Held& held, int part, int node, const Vec3& direction,
+                                         const std::string& name, const Origin& origin) const {
+    std::string by = "another load of step '" + step_.name + "'";
+    for (int j = held.n - 1; j >= 0; --j)
+      if (held.support[j] && std::abs(held.directions.col(j).dot(direction)) > 1e-6)
+        by = "support '" + held.support[j]->name + "'";
+    const Substructure& body = *problem_.substructures[static_cast<size_t>(part)];
+    const Vec3 at = 1e3 * (body.mesh->nodes.col(node) + body.place);
+    throw InputError(
+        origin,
+        fmt::format("{} moves a node of substructure '{}' at ({:.4g}, {:.4g}, {:.4g}) mm along ({:.3g}, {:.3g}, "
+                    "{:.3g}), which {} already holds in that direction\n    leave these nodes out of one of them",
+                    name, body.name, at[0], at[1], at[2], direction[0], direction[1], direction[2], by));
   }
 
   // Throws unless the node has the velocity along a direction that a support asks for, others having given it one.

@@ -755,5 +755,19 @@ TEST(FreeMotion, carries_nothing_however_it_is_turned) {
     }
 }
 
+// Who holds the nodes that a load is to move, and where they are.
+TEST(Motion, of_nodes_that_are_held_names_what_holds_them) {
+  const std::string message = error_of(R"(
+local bar = substructure{ name = "bar", material = metal, place = { 0, 5*mm, 0 }, mesh = mesh.box{ size = { 20*mm, 10*mm, 10*mm }, cells = { 2, 1, 1 } } }
+problem{ name = "p", substructures = { bar }, supports = { support.fixed{ name = "wall", on = bar:face "xmin" } },
+  steps = { step.static{ name = "pull", loads = { load.displacement{ on = bar:face "ymin", x = 1*um } } } } }:run{}
+)");
+  EXPECT_NE(message.find("load.displacement moves a node of substructure 'bar' at (0, 5, "), std::string::npos)
+      << message;
+  EXPECT_NE(message.find(") mm along (1, 0, 0), which support 'wall' already holds in that direction\n"),
+            std::string::npos)
+      << message;
+}
+
 }  // namespace
 }  // namespace dygita::test::conditions_tests

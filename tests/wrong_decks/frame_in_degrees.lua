@@ -1,0 +1,1 @@
+local f = frame{ angle = 30 }
