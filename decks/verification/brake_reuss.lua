@@ -13,7 +13,7 @@
 -- Read next  modes of your own joint: manual/howto/modes.md
 -- Mesh       meshes/brake_reuss.msh, made by meshes/make_brake_reuss.py; published data: see the page
 
-local p = param{ fine = 0, only = 0, mu = 0.2, scale = 1, radius = 1.365*mm, density = 1.371e6, height = 28*um, force = 12249, push = 0, slip = 0.03 }
+local p = param{ fine = 0, only = 0, mu = 0.2, scale = 1, radius = 1.365*mm, density = 1.371e6, height = 28*um, force = 12249, push = 0, slip = 0.03, ring = 0, dt = 100*us }
 
 local file = mesh.gmsh{ file = p.fine == 1 and "../../meshes/brake_reuss_fine.msh" or "../../meshes/brake_reuss.msh" }
 local asperities = { radius = p.radius, density = p.density, height = p.height }
@@ -37,6 +37,14 @@ local function beam(case)
     backbone = output.backbone{ name = "backbone", mode = modes, number = 7, steps = steps[2] }
     outputs[3] = backbone
   end
+  local tip, down
+  if case.push and p.ring > 0 then    -- let go
+    steps[3] = step.dynamic{ name = "ring", after = steps[2], duration = p.ring, dt = p.dt }
+    tip = output.history{ name = "tip", on = top:where(function(x, y, z) return x < -359*mm end), quantity = "acceleration", direction = { 0, 0, 1 } }
+    down = output.ringdown{ name = "down", of = tip, band = { 100, 240 } }
+    table.insert(outputs, tip)
+    table.insert(outputs, down)
+  end
   local result = problem{
     name = "brake_reuss", substructures = { top, bot }, interfaces = { lap, shanks }, steps = steps, outputs = outputs,
     solver = solver.latin{ static_steps = "assembled" },
@@ -48,6 +56,10 @@ local function beam(case)
   if not backbone then return end
   local b = result[backbone]
   for i = 1, #b.acceleration do print(("  %6.2f m/s^2   %7.2f Hz   %.3f %%"):format(b.acceleration[i], b.frequency[i], 100 * b.damping[i])) end
+  if not down then return end
+  local d = result[down]
+  print "ringing down"
+  for i = 1, #d.amplitude do print(("  %6.2f m/s^2   %7.2f Hz   %.3f %%"):format(d.amplitude[i], d.frequency[i], 100 * d.damping[i])) end
 end
 
 -- As in the published model of the measured beam.
