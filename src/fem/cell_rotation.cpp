@@ -1,5 +1,6 @@
 #include "fem/cell_rotation.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -11,19 +12,31 @@ namespace dygita {
 
 namespace {
 
-// Mean of 1/2 curl u over a cell.
+// Mean of d u_p / d x_q over a cell.
 template <class Cell>
-Vec3 mean_rotation(const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& u) {
+Mat3 mean_gradient(const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& u) {
   const auto& shapes = Cell::shapes();
-  Mat3 gradient = Mat3::Zero();  // d u_p / d x_q
+  Mat3 gradient = Mat3::Zero();
   double volume = 0.0;
   for (int i = 0; i < shapes.n_points; ++i) {
     const auto point = point_in_cell(shapes, x, i);
     gradient += point.volume * u.lazyProduct(point.gradient);
     volume += point.volume;
   }
-  gradient /= volume;
-  return 0.5 * Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1));
+  return gradient / volume;
+}
+
+// Angle of 1/2 curl u.
+double angle_of(const Mat3& gradient) {
+  return std::atan(
+      0.5 *
+      Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1)).norm());
+}
+
+double principal_strain_of(const Mat3& gradient) {
+  Eigen::SelfAdjointEigenSolver<Mat3> of;
+  of.computeDirect(0.5 * (gradient + gradient.transpose()), Eigen::EigenvaluesOnly);
+  return of.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -31,7 +44,7 @@ Vec3 mean_rotation(const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& u)
 namespace {
 
 // The rotation of its points as a whole, by least squares; at their middle.
-CellRotation rotation_of_points(const Mesh& mesh, const Points& displacement) {
+CellExtreme rotation_of_points(const Mesh& mesh, const Points& displacement) {
   Vec3 middle = Vec3::Zero(), moved = Vec3::Zero();
   const int n = mesh.n_nodes();
   double n_places = 0.0;
@@ -56,22 +69,28 @@ CellRotation rotation_of_points(const Mesh& mesh, const Points& displacement) {
 
 }  // namespace
 
-CellRotation largest_rotation(const Mesh& mesh, const Points& displacement) {
-  if (!mesh.has_cells()) return rotation_of_points(mesh, displacement);
-  CellRotation worst;
+CellDeformation largest_deformation(const Mesh& mesh, const Points& displacement) {
+  if (!mesh.has_cells()) return {rotation_of_points(mesh, displacement), {}};
+  CellDeformation worst;
   for (const CellBlock& block : mesh.blocks)
     with_cell(block.type, [&](auto cell) {
       using Cell = decltype(cell);
       constexpr int n = Cell::n_nodes;
-      Vec angle(block.n_cells());
+      Vec angle(block.n_cells()), strain(block.n_cells());
       const auto compute = [&](int i) {
         const int* nodes = block.cell(i);
-        angle[i] = std::atan(mean_rotation<Cell>(gather<n>(mesh.nodes, nodes), gather<n>(displacement, nodes)).norm());
+        const Mat3 gradient = mean_gradient<Cell>(gather<n>(mesh.nodes, nodes), gather<n>(displacement, nodes));
+        angle[i] = angle_of(gradient);
+        strain[i] = principal_strain_of(gradient);
       };
       parallel_for(block.n_cells(), compute, Schedule::evenly, block.n_cells() > 1000 ? 0 : 1);
-      Eigen::Index at = 0;
-      if (const double most = angle.maxCoeff(&at); most > worst.angle)
-        worst = {most, gather<n>(mesh.nodes, block.cell(static_cast<int>(at))).rowwise().mean()};
+      const auto take = [&](const Vec& of_cells, CellExtreme& largest) {
+        Eigen::Index at = 0;
+        if (const double most = of_cells.maxCoeff(&at); most > largest.value)
+          largest = {most, gather<n>(mesh.nodes, block.cell(static_cast<int>(at))).rowwise().mean()};
+      };
+      take(angle, worst.rotation);
+      take(strain, worst.strain);
     });
   return worst;
 }

@@ -25,6 +25,7 @@ inline constexpr double spectrum_band = 6.0;          // dB, mean over a spectru
 inline constexpr double record_band = 1.0;            // dB, that a spectrum depends on the end of its record
 inline constexpr double loop_energy_error = 0.05;     // of the loss of a cycle, that the energy balance misses
 inline constexpr double rotation = 5.0;               // degrees, of a cell: what small displacements bear
+inline constexpr double strain = 0.1;                 // of a cell, principal: what small strains bear
 inline constexpr double slip_in_cells = 0.5;          // of a contact cell, along the slip
 inline constexpr double passing_in_cells = 0.01;      // of a cell, of released sides into each other
 inline constexpr double specification = 0.0;          // dB above it: exceeded

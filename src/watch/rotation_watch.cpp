@@ -27,7 +27,7 @@ void RotationWatch::begin_step(const Instant& start) {
     smallest_cell_.push_back(cut_->is_here(i) ? smallest_cell(*cut_->piece(i).body->mesh) : 0.0);
 }
 
-// Cells turn no more than displacements differ over the smallest of them.
+// Cells neither turn nor stretch by more than displacements differ over the smallest of them.
 void RotationWatch::accept(const Instant& instant) {
   if (!shows_motion(instant)) return;
   const int now = static_cast<int>(moments_.size());
@@ -36,54 +36,77 @@ void RotationWatch::accept(const Instant& instant) {
     if (!cut_->is_here(i)) continue;
     const Points displacement = instant.piece_displacement(i);
     const Vec3 range = displacement.rowwise().maxCoeff() - displacement.rowwise().minCoeff();
-    Finding& worst = pieces_[static_cast<size_t>(i)];
-    if (range.norm() <
-        std::max(1.0, worst.angle / allowed) * std::tan(allowed) * smallest_cell_[static_cast<size_t>(i)])
-      continue;
+    Findings& worst = pieces_[static_cast<size_t>(i)];
+    const double gradient = std::min(std::max(1.0, worst.turned.value / allowed) * std::tan(allowed),
+                                     std::max(limit::strain, worst.strained.value));
+    if (range.norm() < gradient * smallest_cell_[static_cast<size_t>(i)]) continue;
     const Substructure& body = *cut_->piece(i).body;
-    const CellRotation turned = largest_rotation(*body.mesh, displacement);
-    if (!(turned.angle > worst.angle)) continue;
-    const bool is_first = worst.first < 0 && turned.angle > allowed;
-    worst = {turned.angle, turned.place + body.place, now, is_first ? now : worst.first};
+    const CellDeformation found = largest_deformation(*body.mesh, displacement);
+    const auto note = [&](const CellExtreme& now_is, double most, Finding& finding) {
+      if (!(now_is.value > finding.value)) return;
+      const bool is_first = finding.first < 0 && now_is.value > most;
+      finding = {now_is.value, now_is.place + body.place, now, is_first ? now : finding.first};
+    };
+    note(found.rotation, allowed, worst.turned);
+    note(found.strain, limit::strain, worst.strained);
   }
+}
+
+void RotationWatch::write(const Finding& finding, double* to) {
+  const double numbers[n_numbers] = {finding.value,
+                                     finding.place[0],
+                                     finding.place[1],
+                                     finding.place[2],
+                                     static_cast<double>(finding.at),
+                                     static_cast<double>(finding.first)};
+  std::copy_n(numbers, n_numbers, to);
+}
+
+void RotationWatch::take(const double* from, Finding& worst) {
+  const int first = static_cast<int>(from[5]);
+  if (first >= 0) worst.first = worst.first < 0 ? first : std::min(worst.first, first);
+  if (from[0] > worst.value) worst = {from[0], {from[1], from[2], from[3]}, static_cast<int>(from[4]), worst.first};
 }
 
 void RotationWatch::settle() {
   if (!cut_) return;
-  constexpr int n = 6;
+  constexpr int n = 2 * n_numbers;
   const std::vector<double> all = of_all_pieces(*cut_, n, [&](int i, double* to) {
-    const Finding& own = pieces_[static_cast<size_t>(i)];
-    const double numbers[n] = {own.angle,
-                               own.place[0],
-                               own.place[1],
-                               own.place[2],
-                               static_cast<double>(own.at),
-                               static_cast<double>(own.first)};
-    std::copy_n(numbers, n, to);
+    write(pieces_[static_cast<size_t>(i)].turned, to);
+    write(pieces_[static_cast<size_t>(i)].strained, to + n_numbers);
   });
   parts_.clear();
   for (int i = 0; i < cut_->n_pieces(); ++i) {
-    const double* of = all.data() + n * i;
     const size_t part = static_cast<size_t>(cut_->piece(i).part);
     if (part >= parts_.size()) parts_.resize(part + 1);
-    Finding& worst = parts_[part];
-    const int first = static_cast<int>(of[5]);
-    if (first >= 0) worst.first = worst.first < 0 ? first : std::min(worst.first, first);
-    if (of[0] > worst.angle) worst = {of[0], {of[1], of[2], of[3]}, static_cast<int>(of[4]), worst.first};
+    take(all.data() + n * i, parts_[part].turned);
+    take(all.data() + n * i + n_numbers, parts_[part].strained);
   }
+}
+
+std::string RotationWatch::told(const Substructure& part, const Finding& finding, const std::string& what) const {
+  return fmt::format(
+      "substructure '{}' {} at {}, {}{}", part.name, what, in_mm(finding.place),
+      moments_[static_cast<size_t>(finding.at)],
+      finding.first == finding.at ? "" : "; too large since " + moments_[static_cast<size_t>(finding.first)]);
 }
 
 void RotationWatch::finish(const Problem& problem, RunResult& result) const {
   double turned = 0.0;
-  for (size_t part = 0; part < parts_.size(); ++part) {
-    const Finding& r = parts_[part];
-    turned = std::max(turned, r.angle / degree);
-    if (r.angle <= allowed) continue;
-    result.warnings.push_back(fmt::format(
-        "substructure '{}' turns by {:.3g} degrees at {}, {}{}: displacements are assumed small, which is valid to "
-        "about {:g} degrees",
-        problem.substructures[part]->name, r.angle / degree, in_mm(r.place), moments_[static_cast<size_t>(r.at)],
-        r.first == r.at ? "" : "; too large since " + moments_[static_cast<size_t>(r.first)], limit::rotation));
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    const auto& [turn, strain] = parts_[i];
+    const Substructure& part = *problem.substructures[i];
+    turned = std::max(turned, turn.value / degree);
+    if (turn.value > allowed)
+      result.warnings.push_back(
+          told(part, turn, fmt::format("turns by {:.3g} degrees", turn.value / degree)) +
+          fmt::format(": displacements are assumed small, which is valid to about {:g} degrees", limit::rotation));
+    if (strain.value > limit::strain)
+      result.warnings.push_back(
+          told(part, strain, fmt::format("is strained by {:.3g} %", 100.0 * strain.value)) +
+          fmt::format(": strains are assumed small, which is valid to some {:g} %; was a unit of a "
+                      "load or a modulus the wrong one?",
+                      100.0 * limit::strain));
   }
   if (turned > limit::rotation) result.figures.largest_rotation = turned;
 }

@@ -1,4 +1,5 @@
-// Watches a run for parts that turn by more than a theory of small displacements knows: each rank its own pieces.
+// Watches a run for parts that turn or stretch by more than a theory of small displacements knows: each rank its own
+// pieces.
 #pragma once
 
 #include "result/result.hpp"
@@ -16,17 +17,25 @@ class RotationWatch {
   void finish(const Problem& problem, RunResult& result) const;
 
  private:
-  // Of a piece or a part; times are indices in moments_.
+  // Times are indices in moments_.
   struct Finding {
-    double angle = 0.0;         // rad
+    double value = 0.0;         // rad, or a strain
     Vec3 place = Vec3::Zero();  // m
     int at = -1, first = -1;    // when it was largest, and when it first was too much
   };
+  // Of a piece or a part.
+  struct Findings {
+    Finding turned, strained;
+  };
+  static constexpr int n_numbers = 6;  // of a finding
+  static void write(const Finding& finding, double* to);
+  static void take(const double* from, Finding& finding);
+  std::string told(const Substructure& part, const Finding& finding, const std::string& what) const;
 
   CutPtr cut_;
   std::vector<double> smallest_cell_;  // m, of each piece here
-  std::vector<Finding> pieces_;        // of all pieces; those here are filled in
-  std::vector<Finding> parts_;
+  std::vector<Findings> pieces_;       // of all pieces; those here are filled in
+  std::vector<Findings> parts_;
   std::vector<std::string> moments_;  // looked at so far, the same on all ranks
 };
 

@@ -78,6 +78,30 @@ problem{ name = "cantilever", substructures = { beam }, supports = { clamp },
   EXPECT_EQ(all(bent("10")), "");  // 4.3 degrees
 }
 
+// A bar pulled to a strain of q / E all over: the strain farthest from zero counts, that of compression, too.
+TEST(SmallDisplacements, a_bar_that_is_strained_too_far_is_named_with_its_strain) {
+  const auto pulled = [](const std::string& traction, const std::string& solver) {
+    return all(run_text(R"(
+local p = param{ q = 1, monolithic = 0 }
+local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0, density = 8000 }
+local bar = substructure{ name = "bar", material = m, mesh = mesh.box{ size = { 100*mm, 10*mm, 10*mm }, cells = { 10, 1, 1 } } }
+problem{ name = "pulled", substructures = { bar }, supports = { support.fixed{ name = "wall", on = bar:face "xmin" } },
+  steps = { step.static{ name = "pull", increments = 2, loads = { load.traction{ on = bar:face "xmax", x = p.q*GPa } } } },
+  solver = p.monolithic == 1 and solver.monolithic{} or nil }:run{}
+)",
+                        {{"q", traction}, {"monolithic", solver}})
+                   .at(0));
+  };
+  for (const char* monolithic : {"0", "1"}) {
+    expect_said(pulled("100", monolithic), {"substructure 'bar' is strained by 50 % at ",
+                                            "increment 2 of static step 'pull'; too large since increment 1",
+                                            "strains are assumed small, which is valid to some 10 %"});
+    expect_said(pulled("-24", monolithic),
+                {"substructure 'bar' is strained by 12 % at ", "increment 2 of static step 'pull':"});
+    EXPECT_EQ(pulled("19", monolithic), "");  // 9.5 %
+  }
+}
+
 TEST(SmallDisplacements, parts_that_leave_each_other_are_named) {
   const DeckRun run = run_text(R"(
 local m = material.elastic{ name = "m", young = 1*GPa, poisson = 0, density = 1000 }
