@@ -58,9 +58,10 @@ void Stages::begin_increment(int increment, bool starts_window) {
   if (step_.model.scheme.is_static) step_.indicator.start_displaced(step_.local.displacement_size());
 }
 
-void Stages::finish_increment(const Vec& q) {
+void Stages::finish_increment(const Vec& found) {
   const Stopwatch watch(step_.seconds.backward);
-  if (system_) system_->finish(step_.at.velocity, q);
+  const Vec balanced = system_ ? system_->finish(step_.at.velocity, found) : Vec();
+  const Vec& q = system_ ? balanced : found;
   step_.loops.for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>& members) {
     group.front()->backward(group);
     for (const int i : members) {

@@ -27,8 +27,8 @@ class Stages {
   // velocities of motions at its end.
   std::vector<double> begin_pieces(int increment);
   void begin_increment(int increment, bool starts_window);
-  // Interiors of an increment for data q.
-  void finish_increment(const Vec& q);
+  // Interiors of an increment for the data found.
+  void finish_increment(const Vec& found);
 
   // Of a static step with all pieces in one system; else null.
   TangentIteration* system() { return system_ ? &*system_ : nullptr; }

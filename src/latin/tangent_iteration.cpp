@@ -140,11 +140,12 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
   local_->limit_friction({});
 }
 
-void TangentIteration::finish(const Vec& velocity, const Vec& q) {
+Vec TangentIteration::finish(const Vec& velocity, const Vec& q) {
   Vec own = velocity, force = q - k_.cwiseProduct(velocity);
   system_.set_own();
   system_.solve(own, force);
   system_.set_velocities();
+  return force + k_.cwiseProduct(own);
 }
 
 }  // namespace dygita

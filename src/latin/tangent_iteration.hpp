@@ -28,8 +28,9 @@ class TangentIteration {
   // What the last linear stage missed of the balance, of the largest force; below the indicator's tolerance it counts
   // for nothing.
   double imbalance() const { return system_.imbalance(); }
-  // Gives the pieces the velocities of fields in balance.
-  void finish(const Vec& velocity, const Vec& q);
+  // Gives the pieces the velocities of fields in balance, and answers their q: forces that belong to other velocities,
+  // by rounding alone, would push a part that nothing holds.
+  Vec finish(const Vec& velocity, const Vec& q);
   double bytes() const { return system_.bytes(); }
   // Points that answered otherwise in the last iteration than in the one before.
   int n_turned() const { return n_turned_; }
