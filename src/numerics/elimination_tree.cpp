@@ -27,6 +27,42 @@ EliminationTree::EliminationTree(const std::vector<SupernodeView>& supernodes, i
   std::reverse(order.begin(), order.end());
 }
 
+namespace {
+
+// Each column of the last child's update then goes to one that lies no further on, and so do its rows. Of two children
+// the sum is the same whichever comes first; of more it is not.
+bool fits_over_last_child(const std::vector<SupernodeView>& supernodes, int s, const std::vector<int>& children) {
+  const SupernodeView &own = supernodes[s], &last = supernodes[children.back()];
+  if (children.size() > 2 || own.n_below > last.n_below) return false;
+  for (int i = 0, at = 0; i < last.n_below; ++i) {
+    if (last.below[i] < own.first + own.n_columns) continue;
+    while (own.below[at] < last.below[i]) ++at;
+    if (at > i) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RoomForFronts::RoomForFronts(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes,
+                             const std::vector<int>& places, const std::function<size_t(int)>& update_size)
+    : is_own(supernodes.size(), 0), is_over_child(supernodes.size(), 0) {
+  for (const int place : places) is_own[tree.order[place]] = 1;
+  size_t depth = 0;
+  for (const int place : places) {
+    const int s = tree.order[place];
+    const std::vector<int>& children = tree.children[s];
+    const SupernodeView& own = supernodes[s];
+    columns = std::max(columns, static_cast<size_t>(own.n_columns + own.n_below) * static_cast<size_t>(own.n_columns));
+    is_over_child[s] = update_size(s) > 0 && !children.empty() && is_own[children.back()] &&
+                       fits_over_last_child(supernodes, s, children);
+    waiting = std::max(waiting, depth + (is_over_child[s] ? 0 : update_size(s)));
+    for (const int child : children)
+      if (is_own[child]) depth -= update_size(child);
+    if (tree.parent[s] >= 0) depth += update_size(s);
+  }
+}
+
 std::vector<Branch> branches_of(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes) {
   constexpr double least_operations = 2e8, largest_share = 0.06, smallest_share = 1e-4;
   const int n = static_cast<int>(tree.order.size());

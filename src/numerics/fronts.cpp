@@ -20,13 +20,15 @@ constexpr int rows_of_one_thread = 1000;  // of an update that one thread adds s
 
 size_t squared(int m) { return static_cast<size_t>(m) * static_cast<size_t>(m); }
 
-// f(j) for the columns of an update of m rows, shared among threads where there are many.
+// f(j) for columns of an update of m rows, shared among threads where there are many.
 template <class Function>
-void for_each_column(int m, Function&& f) {
+void for_each_column(int m, int begin, int end, Function&& f) {
   const auto run = [&](int block) {
-    for (int j = block * columns_at_once; j < std::min(m, (block + 1) * columns_at_once); ++j) f(j);
+    const int first = begin + block * columns_at_once;
+    for (int j = first; j < std::min(end, first + columns_at_once); ++j) f(j);
   };
-  parallel_for((m + columns_at_once - 1) / columns_at_once, run, Schedule::as_free, m < rows_of_one_thread ? 1 : 0);
+  parallel_for((end - begin + columns_at_once - 1) / columns_at_once, run, Schedule::as_free,
+               m < rows_of_one_thread ? 1 : 0);
 }
 
 // What all fronts read, and what each of them leaves for its parent.
@@ -79,10 +81,10 @@ class Fronts {
   Fronts(Whole& whole, std::vector<int> places)
       : whole_(whole),
         places_(std::move(places)),
-        is_own_(whole.supernodes.size(), 0),
+        room_(whole.tree, whole.supernodes, places_, [&](int s) { return whole.update_size(s); }),
         local_(whole.order.size()),
-        panel_(largest_panel() * sizeof(double)),
-        stack_(deepest_stack() * sizeof(double)),
+        panel_(room_.columns * sizeof(double)),
+        stack_(room_.waiting * sizeof(double)),
         top_(stack_.doubles()) {}
 
   // Answers the position of a pivot that is not positive, or -1.
@@ -100,29 +102,6 @@ class Fronts {
   }
 
  private:
-  size_t largest_panel() {
-    size_t largest = 0;
-    for (const int place : places_) {
-      const SupernodeView& s = whole_.supernodes[whole_.tree.order[place]];
-      is_own_[whole_.tree.order[place]] = 1;
-      largest = std::max(largest, static_cast<size_t>(s.n_columns + s.n_below) * static_cast<size_t>(s.n_columns));
-    }
-    return largest;
-  }
-
-  // Updates wait on a stack until their parent takes them; the parent's own is made above its children's.
-  size_t deepest_stack() const {
-    size_t depth = 0, deepest = 0;
-    for (const int place : places_) {
-      const int s = whole_.tree.order[place];
-      deepest = std::max(deepest, depth + whole_.update_size(s));
-      for (const int child : whole_.tree.children[s])
-        if (is_own_[child]) depth -= whole_.update_size(child);
-      if (whole_.tree.parent[s] >= 0) depth += whole_.update_size(s);
-    }
-    return deepest;
-  }
-
   void take_matrix(const SupernodeView& s) {
     const auto height = static_cast<size_t>(s.n_columns + s.n_below);
     double* panel = panel_.doubles();
@@ -132,20 +111,68 @@ class Fronts {
         if (const int at = whole_.position[e.col()]; at >= s.first + j) panel[height * j + local_[at]] += e.value();
   }
 
-  // Adds what a child leaves to the columns at hand and to what they leave themselves (n_below apart).
-  void take_child(const SupernodeView& s, int child, double* update) {
-    const SupernodeView& from = whole_.supernodes[child];
-    const int m = from.n_below;
+  // Where the rows of a child's update go in the front at hand; answers the first that is no column of it.
+  int find_rows(const SupernodeView& s, const SupernodeView& child) {
+    to_.resize(child.n_below);
+    for (int i = 0; i < child.n_below; ++i) to_[i] = local_[child.below[i]];
+    return static_cast<int>(std::lower_bound(to_.begin(), to_.end(), s.n_columns) - to_.begin());
+  }
+
+  // Adds what a child leaves to the columns at hand.
+  void take_columns(const SupernodeView& s, int child) {
+    const int m = whole_.supernodes[child].n_below, end = find_rows(s, whole_.supernodes[child]);
     const auto height = static_cast<size_t>(s.n_columns + s.n_below);
-    to_.resize(m);
-    for (int i = 0; i < m; ++i) to_[i] = local_[from.below[i]];
-    for_each_column(m, [&](int j) {
+    for_each_column(m, 0, end, [&](int j) {
       const double* column = whole_.update[child] + static_cast<size_t>(j) * m;
-      const int at = to_[j];
-      double* into = at < s.n_columns ? panel_.doubles() + height * at
-                                      : update + static_cast<size_t>(at - s.n_columns) * s.n_below - s.n_columns;
+      double* into = panel_.doubles() + height * to_[j];
       for (int i = j; i < m; ++i) into[to_[i]] += column[i];
     });
+  }
+
+  // And to what they leave themselves (n_below apart).
+  void take_rest(const SupernodeView& s, int child, double* update) {
+    const int m = whole_.supernodes[child].n_below, first = find_rows(s, whole_.supernodes[child]);
+    for_each_column(m, first, m, [&](int j) {
+      const double* column = whole_.update[child] + static_cast<size_t>(j) * m;
+      double* into = update + static_cast<size_t>(to_[j] - s.n_columns) * s.n_below - s.n_columns;
+      for (int i = j; i < m; ++i) into[to_[i]] += column[i];
+    });
+  }
+
+  // Makes of a child's update that of the front at hand, where it lies: no column is written before it is read.
+  void move_rest(const SupernodeView& s, int child) {
+    const int m = whole_.supernodes[child].n_below, n = s.n_below, first = find_rows(s, whole_.supernodes[child]);
+    double* const update = whole_.update[child];
+    int next = 0;  // column to be made
+    const auto clear_to = [&](int end) {
+      for (; next < end; ++next) std::fill_n(update + static_cast<size_t>(next) * n + next, n - next, 0.0);
+    };
+    for (int j = first; j < m; ++j) {
+      const double* column = update + static_cast<size_t>(j) * m;
+      moved_.assign(column + j, column + m);
+      clear_to(to_[j] - s.n_columns + 1);
+      double* into = update + static_cast<size_t>(to_[j] - s.n_columns) * n - s.n_columns;
+      for (int i = j; i < m; ++i) into[to_[i]] = moved_[i - j];
+    }
+    clear_to(n);
+  }
+
+  // Takes what the children leave; answers where what the front leaves itself is to be.
+  double* take_children(int i_supernode) {
+    const SupernodeView& s = whole_.supernodes[i_supernode];
+    const std::vector<int>& children = whole_.tree.children[i_supernode];
+    for (const int child : children) take_columns(s, child);
+    const bool is_over = room_.is_over_child[i_supernode];
+    double* update = whole_.is_above_all(i_supernode) ? whole_.schur.data()
+                     : is_over                        ? whole_.update[children.back()]
+                                                      : top_;
+    if (is_over)
+      move_rest(s, children.back());
+    else if (!children.empty() && !whole_.is_above_all(i_supernode))
+      clear(update, s.n_below);
+    for (const int child : children)
+      if (!is_over || child != children.back()) take_rest(s, child, update);
+    return update;
   }
 
   // The columns of a supernode into the panel, what they leave onto the stack, or into the Schur complement. Answers
@@ -158,13 +185,11 @@ class Fronts {
     take_matrix(s);
     const bool is_into_schur = whole_.is_above_all(i_supernode);
     const std::vector<int>& children = whole_.tree.children[i_supernode];
-    double* update = is_into_schur ? whole_.schur.data() : top_;
-    if (!children.empty() && !is_into_schur) clear(update, m);
-    for (const int child : children) take_child(s, child, update);
+    double* update = take_children(i_supernode);
     double* panel = panel_.doubles();
     if (const int pivot = factorise_columns(height, k, panel, height, whole_.watch); pivot >= 0) return s.first + pivot;
     subtract_square(m, k, panel + k, height, children.empty() && !is_into_schur ? 0.0 : 1.0, update, m, whole_.watch);
-    const auto lowest = std::find_if(children.begin(), children.end(), [&](int child) { return is_own_[child]; });
+    const auto lowest = std::find_if(children.begin(), children.end(), [&](int child) { return room_.is_own[child]; });
     if (lowest != children.end()) top_ = whole_.update[*lowest];
     if (is_into_schur || m == 0) return -1;
     if (whole_.tree.parent[i_supernode] < 0)
@@ -175,7 +200,7 @@ class Fronts {
   }
 
   static void clear(double* update, int m) {
-    for_each_column(m, [&](int j) { std::fill_n(update + static_cast<size_t>(j) * m + j, m - j, 0.0); });
+    for_each_column(m, 0, m, [&](int j) { std::fill_n(update + static_cast<size_t>(j) * m + j, m - j, 0.0); });
   }
 
   void give_to_schur(const SupernodeView& s, const double* update) {
@@ -194,8 +219,9 @@ class Fronts {
 
   Whole& whole_;
   const std::vector<int> places_;
-  std::vector<char> is_own_;     // supernodes that are among them
+  const RoomForFronts room_;
   std::vector<int> local_, to_;  // of a position in the front at hand, of a row of a child's update in it
+  std::vector<double> moved_;
   ScratchPages panel_, stack_;
   double* top_;
 };
@@ -239,6 +265,13 @@ std::optional<Mat> eliminate_side_by_side(Whole& whole, const KeepSupernode& kee
 }
 
 }  // namespace
+
+double bytes_of_fronts(const std::vector<SupernodeView>& supernodes, int n) {
+  const EliminationTree tree(supernodes, n);
+  const auto update_size = [&](int s) { return tree.parent[s] < 0 ? 0 : squared(supernodes[s].n_below); };
+  const RoomForFronts room(tree, supernodes, range(0, static_cast<int>(supernodes.size())), update_size);
+  return 8.0 * static_cast<double>(room.columns + room.waiting);
+}
 
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
                      const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep, const Watch& watch) {

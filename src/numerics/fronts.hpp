@@ -28,4 +28,7 @@ using KeepSupernode = std::function<void(const SupernodeView&, int place)>;
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
                      const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep, const Watch& watch = {});
 
+// Bytes that one thread works in while all unknowns are eliminated: the largest columns at hand, and what waits.
+double bytes_of_fronts(const std::vector<SupernodeView>& supernodes, int n);
+
 }  // namespace dygita

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <new>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "numerics/cholmod_workspace.hpp"
@@ -40,7 +41,20 @@ double RepeatedFactor::bytes() const {
   return sum;
 }
 
+double RepeatedFactor::bytes_at_work() const { return bytes_of_fronts(supernodes_, static_cast<int>(order_.size())); }
+
 bool RepeatedFactor::factorise(const SparseMatrix& matrix, const std::function<void(double)>& watch) {
+  return factorise(matrix, order_, watch);
+}
+
+bool RepeatedFactor::factorise_in_order(const SparseMatrix& upper, const std::function<void(double)>& watch) {
+  std::vector<int> as_it_is(order_.size());
+  std::iota(as_it_is.begin(), as_it_is.end(), 0);
+  return factorise(upper, as_it_is, watch);
+}
+
+bool RepeatedFactor::factorise(const SparseMatrix& matrix, const std::vector<int>& order,
+                               const std::function<void(double)>& watch) {
   factor_.clear();
   std::mutex telling;
   std::atomic<double> done = 0.0;
@@ -54,7 +68,7 @@ bool RepeatedFactor::factorise(const SparseMatrix& matrix, const std::function<v
   };
   try {
     const bool is_positive =
-        eliminate(matrix, order_, static_cast<int>(order_.size()), supernodes_, keep, watch ? Watch(tell) : Watch())
+        eliminate(matrix, order, static_cast<int>(order.size()), supernodes_, keep, watch ? Watch(tell) : Watch())
             .not_positive < 0;
     factor_.arrange();
     return is_positive;

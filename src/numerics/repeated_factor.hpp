@@ -23,12 +23,16 @@ class RepeatedFactor {
   ~RepeatedFactor();
   RepeatedFactor(RepeatedFactor&&) noexcept;
 
-  double bytes() const;                              // of the factor, once computed
-  double operations() const { return operations_; }  // of one factorisation
+  double bytes() const;                                     // of the factor, once computed
+  double bytes_at_work() const;                             // beside it, while one thread computes it
+  const std::vector<int>& order() const { return order_; }  // the unknown at each position of the factor
+  double operations() const { return operations_; }         // of one factorisation
   // matrix: of the pattern given. false: it is not positive definite. Throws NumericalError when out of memory.
   // watch: is called with how much of the work is done, 0 to 1; one call at a time, on any thread. What it throws ends
   // the work, and there is no factor then.
   bool factorise(const SparseMatrix& matrix, const std::function<void(double)>& watch = {});
+  // The same of a matrix whose unknowns are in that order already, its upper triangle alone.
+  bool factorise_in_order(const SparseMatrix& upper, const std::function<void(double)>& watch = {});
   // A^-1 b of the matrix last factorised; several right-hand sides are columns.
   Mat solve(const Mat& b) const;
   // What b of these unknowns alone reaches, and A^-1 b of such a b: right at these unknowns, elsewhere anything.
@@ -36,6 +40,8 @@ class RepeatedFactor {
   Vec solve(const Vec& b, const std::vector<char>& reach) const;
 
  private:
+  bool factorise(const SparseMatrix& matrix, const std::vector<int>& order, const std::function<void(double)>& watch);
+
   std::unique_ptr<Cholmod> cholmod_;  // the pattern of the factor
   std::vector<int> order_;
   std::vector<SupernodeView> supernodes_;

@@ -5,39 +5,25 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/task.hpp"
 #include "numerics/dense.hpp"
 #include "step/make_pieces.hpp"
 
 namespace dygita {
 
 AssembledSystem::AssembledSystem(const StepModel& model) : model_(&model), first_{0} {
-  for (size_t i = 0; i < model.pieces.size(); ++i) pieces_.push_back(&assembled_piece(model, static_cast<int>(i)));
-  const SparseMatrix stiffness = pieces_together();
-  find_points();
-  make_pattern(stiffness);
-}
-
-SparseMatrix AssembledSystem::pieces_together() {
-  std::vector<SparseMatrix> of_pieces;
-  std::vector<int> counts;
-  for (const AssembledPiece* piece : pieces_) {
-    const SparseMatrix& own = of_pieces.emplace_back(piece->matrix());
-    first_.push_back(first_.back() + piece->op().n_free());
-    for (Eigen::Index r = 0; r < own.rows(); ++r) counts.push_back(own.outerIndexPtr()[r + 1] - own.outerIndexPtr()[r]);
+  for (size_t i = 0; i < model.pieces.size(); ++i) {
+    pieces_.push_back(&assembled_piece(model, static_cast<int>(i)));
+    first_.push_back(first_.back() + pieces_.back()->op().n_free());
   }
-  SparseMatrix together(first_.back(), first_.back());
-  together.reserve(counts);
-  for (size_t i = 0; i < pieces_.size(); ++i)
-    for (Eigen::Index r = 0; r < of_pieces[i].rows(); ++r)
-      for (SparseMatrix::InnerIterator entry(of_pieces[i], r); entry; ++entry)
-        together.insertBackUncompressed(first_[i] + r, first_[i] + entry.col()) = entry.value();
-  together.makeCompressed();
-  return together;
-}
-
-Eigen::Map<const SparseMatrix> AssembledSystem::stiffness() const {
-  return {matrix_.rows(),          matrix_.cols(),          matrix_.nonZeros(),
-          matrix_.outerIndexPtr(), matrix_.innerIndexPtr(), stiffness_values_.data()};
+  Task task("system of step '" + model.step->name + "'", 0, Task::Interrupts::wait);
+  task.tell("points of interfaces");
+  find_points();
+  if (first_.back() == 0) return;
+  task.tell("pattern");
+  const SparseMatrix pattern = make_pattern();
+  task.tell("order");
+  put_in_order(pattern);
 }
 
 void AssembledSystem::find_points() {
@@ -48,6 +34,10 @@ void AssembledSystem::find_points() {
         if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0) rows.push_back(i);
     points_.push_back(traces_of(rows));
   }
+  points_at_.resize(first_.back());
+  for (size_t i = 0; i < points_.size(); ++i)
+    for (size_t c = 0; c < points_[i].unknowns.size(); ++c)
+      points_at_[points_[i].unknowns[c]].push_back({static_cast<int>(i), static_cast<int>(c)});
 }
 
 AssembledSystem::PointTraces AssembledSystem::traces_of(const std::vector<int>& rows) const {
@@ -71,68 +61,103 @@ AssembledSystem::PointTraces AssembledSystem::traces_of(const std::vector<int>& 
   return traces;
 }
 
-// The pieces' entries, and all that a point may ever couple.
-void AssembledSystem::make_pattern(const SparseMatrix& stiffness) {
+// The pieces' entries, and all that a point may ever couple; without values.
+SparseMatrix AssembledSystem::make_pattern() {
   const int n = first_.back();
-  std::vector<std::vector<int>> points_at(n);
-  for (size_t i = 0; i < points_.size(); ++i)
-    for (const int unknown : points_[i].unknowns) points_at[unknown].push_back(static_cast<int>(i));
-  std::vector<int> columns, starts{0}, own, nodes;
-  for (int r = 0; r < n; ++r) {
-    own.clear();
-    for (SparseMatrix::InnerIterator entry(stiffness, r); entry; ++entry) own.push_back(static_cast<int>(entry.col()));
-    for (const int i : points_at[r]) own.insert(own.end(), points_[i].unknowns.begin(), points_[i].unknowns.end());
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
-    columns.insert(columns.end(), own.begin(), own.end());
-    starts.push_back(static_cast<int>(columns.size()));
-  }
-  const std::vector<double> zeros(columns.size(), 0.0);
-  matrix_ = Eigen::Map<const SparseMatrix>(n, n, static_cast<Eigen::Index>(columns.size()), starts.data(),
-                                           columns.data(), zeros.data());
-  for (int r = 0; r < n; ++r) {
-    int at = starts[r];
-    for (SparseMatrix::InnerIterator entry(stiffness, r); entry; ++entry) {
-      while (columns[at] < entry.col()) ++at;
-      matrix_.valuePtr()[at] = entry.value();
+  SparseMatrix pattern(n, n);
+  std::vector<int> columns, own;
+  diagonal_.resize(n);
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const SparseMatrix of_piece = pieces_[i]->matrix();
+    diagonal_.segment(first_[i], of_piece.rows()) = of_piece.diagonal();
+    for (Eigen::Index r = 0; r < of_piece.rows(); ++r) {
+      const auto row = static_cast<size_t>(first_[i] + r);
+      own.clear();
+      for (SparseMatrix::InnerIterator entry(of_piece, r); entry; ++entry)
+        own.push_back(first_[i] + static_cast<int>(entry.col()));
+      for (const PointAt& at : points_at_[row])
+        own.insert(own.end(), points_[at.point].unknowns.begin(), points_[at.point].unknowns.end());
+      std::sort(own.begin(), own.end());
+      columns.insert(columns.end(), own.begin(), std::unique(own.begin(), own.end()));
+      pattern.outerIndexPtr()[row + 1] = static_cast<int>(columns.size());
     }
   }
-  for (PointTraces& point : points_) {
-    const size_t n_own = point.unknowns.size();
-    point.entries.resize(n_own * n_own);
-    for (size_t r = 0; r < n_own; ++r) {
-      auto at = columns.begin() + starts[point.unknowns[r]];
-      const auto end = columns.begin() + starts[point.unknowns[r] + 1];
-      for (size_t c = 0; c < n_own; ++c) {
-        at = std::lower_bound(at, end, point.unknowns[c]);
-        point.entries[c * n_own + r] = static_cast<int>(at - columns.begin());
-      }
-    }
-  }
-  stiffness_values_.assign(matrix_.valuePtr(), matrix_.valuePtr() + columns.size());
-  diagonal_ = matrix_.diagonal();
+  pattern.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+  std::copy(columns.begin(), columns.end(), pattern.innerIndexPtr());
+  return pattern;
+}
+
+// A symmetric matrix that is factorised in one order is stored in that order, and half of it is enough.
+void AssembledSystem::put_in_order(const SparseMatrix& pattern) {
+  const auto n = static_cast<int>(pattern.rows());
+  std::vector<int> nodes, own;
   for (const AssembledPiece* piece : pieces_) {
     const int before = nodes.empty() ? 0 : nodes.back() + 1;
     for (const int node : piece->op().unknowns().node_of_unknown()) nodes.push_back(before + node);
   }
-  if (n > 0) factor_ = std::make_unique<RepeatedFactor>(matrix_, nodes, "static step '" + model_->step->name + "'");
+  factor_ = std::make_unique<RepeatedFactor>(pattern, nodes, "static step '" + model_->step->name + "'");
+  position_.resize(n);
+  entry_at_.resize(n);
+  for (int p = 0; p < n; ++p) position_[factor_->order()[p]] = p;
+  matrix_.resize(n, n);
+  matrix_.resizeNonZeros((pattern.nonZeros() + n) / 2);
+  int* columns = matrix_.innerIndexPtr();
+  for (int p = 0; p < n; ++p) {
+    own.clear();
+    for (SparseMatrix::InnerIterator entry(pattern, factor_->order()[p]); entry; ++entry)
+      if (const int at = position_[entry.col()]; at >= p) own.push_back(at);
+    std::sort(own.begin(), own.end());
+    columns = std::copy(own.begin(), own.end(), columns);
+    matrix_.outerIndexPtr()[p + 1] = static_cast<int>(columns - matrix_.innerIndexPtr());
+  }
+  CHECK(columns == matrix_.innerIndexPtr() + matrix_.nonZeros(), "a pattern that is not symmetric");
 }
 
 double AssembledSystem::bytes() const {
-  const double entries = static_cast<double>(matrix_.nonZeros());
-  double of_points = 0.0;
-  for (const PointTraces& point : points_) of_points += static_cast<double>(point.entries.size());
-  return (factor_ ? factor_->bytes() : 0.0) + 20.0 * entries + 4.0 * of_points;
+  double sum = (factor_ ? factor_->bytes() : 0.0) + 12.0 * static_cast<double>(matrix_.nonZeros());
+  for (const PointTraces& point : points_) sum += 8.0 * static_cast<double>(point.rows.size());
+  return sum;
 }
 
-void AssembledSystem::add_tangents() {
-  std::copy(stiffness_values_.begin(), stiffness_values_.end(), matrix_.valuePtr());
-  Mat block;
-  for (size_t i = 0; i < points_.size(); ++i) {
-    const PointTraces& point = points_[i];
-    block.noalias() = point.rows.transpose() * tangents_.points[i].matrix * point.rows;
-    for (size_t e = 0; e < point.entries.size(); ++e) matrix_.valuePtr()[point.entries[e]] += block.data()[e];
+double AssembledSystem::bytes_at_work() const { return factor_ ? factor_->bytes_at_work() : 0.0; }
+
+void AssembledSystem::fill_matrix() {
+  std::vector<Mat> forces;  // of each point, by its unknowns
+  for (size_t i = 0; i < points_.size(); ++i) forces.emplace_back(tangents_.points[i].matrix * points_[i].rows);
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const SparseMatrix of_piece = pieces_[i]->matrix();
+    for (int r = 0; r < pieces_[i]->op().n_free(); ++r) add_row(first_[i] + r, of_piece, first_[i], forces);
   }
+}
+
+// first: of the piece's unknowns.
+void AssembledSystem::add_row(int unknown, const SparseMatrix& of_piece, int first, const std::vector<Mat>& forces) {
+  const int row = position_[unknown];
+  for (int e = matrix_.outerIndexPtr()[row]; e < matrix_.outerIndexPtr()[row + 1]; ++e)
+    entry_at_[matrix_.innerIndexPtr()[e]] = e;
+  const auto add = [&](int column, double value) {
+    if (const int at = position_[column]; at >= row) matrix_.valuePtr()[entry_at_[at]] += value;
+  };
+  for (SparseMatrix::InnerIterator entry(of_piece, unknown - first); entry; ++entry)
+    add(first + static_cast<int>(entry.col()), entry.value());
+  Vec own;
+  for (const PointAt& at : points_at_[unknown]) {
+    const PointTraces& point = points_[at.point];
+    own.noalias() = forces[at.point].transpose() * point.rows.col(at.column);
+    for (Eigen::Index c = 0; c < own.size(); ++c) add(point.unknowns[c], own[c]);
+  }
+}
+
+Vec AssembledSystem::stiffness_times(const Vec& x) const {
+  Vec force(x.size());
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const PieceOperator& op = pieces_[i]->op();
+    const std::vector<double> at_rest(op.held().size(), 0.0);
+    force.segment(first_[i], op.n_free()) =
+        op.c1() * op.stiffness_times(op.unknowns().expand(x.segment(first_[i], op.n_free()), at_rest));
+  }
+  return force;
 }
 
 void AssembledSystem::answer_preloads() {
@@ -156,11 +181,11 @@ void AssembledSystem::set_tangents(Tangents tangents) {
   set_own();
   is_following_ = tangents_.follow();
   if (!factor_) return;
-  add_tangents();
+  fill_matrix();
   const auto tell = [&](double share) {
     if (watch_) watch_(fmt::format("factor {:.0f} %", 100.0 * share));
   };
-  if (!factor_->factorise(matrix_, tell))
+  if (!factor_->factorise_in_order(matrix_, tell))
     throw NumericalError("static step '" + model_->step->name +
                          "': the system is not positive definite: an unconstrained rigid motion, or a cell of almost "
                          "no volume");
@@ -230,7 +255,7 @@ bool AssembledSystem::solve(Vec& velocity, Vec& force) {
   const auto missing = [&] {
     velocity = at_rows(x_) + held;
     force = at_rest - tangent_times(velocity - held);
-    return Vec(loads + from_rows(force) - stiffness() * x_);
+    return Vec(loads + from_rows(force) - stiffness_times(x_));
   };
   x_ = balanced(loads + from_rows(at_rest));
   x_ += balanced(missing());  // ties are stiff beside the cells: what rounding left, once

@@ -23,7 +23,8 @@ class AssembledSystem {
 
   // Of each point of the exchange, as tangents have them.
   const std::vector<std::vector<int>>& unknowns_of_points() const { return unknowns_of_points_; }
-  double bytes() const;  // of factor and matrices, as they will be
+  double bytes() const;          // of factor and matrices, as they will be
+  double bytes_at_work() const;  // beside them, while one thread computes the factor
 
   // Takes these tangents from now on, and factorises. Throws NumericalError where they leave a motion free.
   void set_tangents(Tangents tangents);
@@ -51,15 +52,19 @@ class AssembledSystem {
   struct PointTraces {
     std::vector<int> unknowns;
     Mat rows;
-    std::vector<int> entries;  // of the matrix, where rows^T M rows goes, column by column
+  };
+  // A point and which of its unknowns one of the system is.
+  struct PointAt {
+    int point, column;
   };
 
-  SparseMatrix pieces_together();
-  Eigen::Map<const SparseMatrix> stiffness() const;
   void find_points();
   PointTraces traces_of(const std::vector<int>& rows) const;
-  void make_pattern(const SparseMatrix& stiffness);
-  void add_tangents();
+  SparseMatrix make_pattern();
+  void put_in_order(const SparseMatrix& pattern);
+  void fill_matrix();
+  void add_row(int unknown, const SparseMatrix& of_piece, int first, const std::vector<Mat>& forces);
+  Vec stiffness_times(const Vec& x) const;
   void answer_preloads();
   Vec at_rows(const Vec& x) const;
   Vec from_rows(const Vec& values) const;
@@ -74,12 +79,14 @@ class AssembledSystem {
 
   const StepModel* model_;
   std::vector<AssembledPiece*> pieces_;
-  std::vector<int> first_;  // unknown of each piece in the system; the last entry is its size
-  SparseMatrix matrix_;
-  std::vector<double> stiffness_values_;  // of the pieces side by side, in the pattern of the matrix
-  Vec diagonal_;                          // of the same
+  std::vector<int> first_;     // unknown of each piece in the system; the last entry is its size
+  SparseMatrix matrix_;        // of the factor: the upper triangle, in its order
+  std::vector<int> position_;  // of each unknown there
+  std::vector<int> entry_at_;  // of the row at hand, at each position of its columns
+  Vec diagonal_;               // of the pieces alone
   std::vector<std::vector<int>> unknowns_of_points_;
   std::vector<PointTraces> points_;
+  std::vector<std::vector<PointAt>> points_at_;  // of each unknown
   std::unique_ptr<RepeatedFactor> factor_;
   Tangents tangents_;  // of the factor
   Tangents at_hand_;   // beside it; empty: its own

@@ -117,6 +117,43 @@ TEST(RepeatedFactor, solves_one_matrix_after_the_other_with_the_same_bits_on_any
   }
 }
 
+TEST(RepeatedFactor, takes_half_of_a_matrix_that_is_in_its_order_to_the_same_bits) {
+  const Lattice of = lattice(large);
+  RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+  ASSERT_TRUE(factor.factorise(of.matrix));
+  const Mat b = Mat::Random(of.size(), 2), x = factor.solve(b);
+  std::vector<int> position(of.node_of_dof.size());
+  for (int p = 0; p < of.size(); ++p) position[static_cast<size_t>(factor.order()[static_cast<size_t>(p)])] = p;
+  std::vector<Eigen::Triplet<double>> upper;
+  for (int row = 0; row < of.size(); ++row)
+    for (SparseMatrix::InnerIterator e(of.matrix, row); e; ++e)
+      if (const int p = position[static_cast<size_t>(row)], q = position[static_cast<size_t>(e.col())]; q >= p)
+        upper.emplace_back(p, q, e.value());
+  SparseMatrix half(of.size(), of.size());
+  half.setFromTriplets(upper.begin(), upper.end());
+  ASSERT_TRUE(factor.factorise_in_order(half));
+  EXPECT_EQ(factor.solve(b), x);
+}
+
+// All of a dense matrix is one front.
+TEST(RepeatedFactor, knows_the_memory_that_it_works_in) {
+  constexpr int n = 30;
+  std::vector<int> nodes;
+  std::vector<Eigen::Triplet<double>> all;
+  for (int i = 0; i < n; ++i) {
+    nodes.push_back(i);
+    for (int j = 0; j < n; ++j) all.emplace_back(i, j, i == j ? n : -0.5);
+  }
+  SparseMatrix dense(n, n);
+  dense.setFromTriplets(all.begin(), all.end());
+  EXPECT_EQ(RepeatedFactor(dense, nodes, "dense").bytes_at_work(), 8.0 * n * n);
+  const Lattice of = lattice(large);
+  const RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+  constexpr double separator = large * large;  // the last front has about as many unknowns
+  EXPECT_GT(factor.bytes_at_work(), 8.0 * separator * separator / 2.0);
+  EXPECT_LT(factor.bytes_at_work(), factor.bytes());
+}
+
 TEST(RepeatedFactor, answers_where_it_is_asked_through_what_lies_between_alone) {
   const Lattice of = lattice(large);
   RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
