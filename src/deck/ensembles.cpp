@@ -9,6 +9,7 @@
 #include "deck/deck_state.hpp"
 #include "model/members.hpp"
 #include "report/ensemble_files.hpp"
+#include "report/ensemble_report.hpp"
 
 namespace dygita {
 
@@ -121,6 +122,16 @@ void take_members(lua_State* L, EnsembleResult& found) {
   });
 }
 
+// As a continued ensemble reads back those that ran before.
+void count_as_written(EnsembleResult& found) {
+  take_as_written(found.ensemble);
+  for (size_t i = 0; i < found.members.size(); ++i) {
+    DeckResult own = *found.members[i];
+    own.run = found.ensemble.members[i].result;
+    found.members[i] = std::make_shared<const DeckResult>(std::move(own));
+  }
+}
+
 void tell(const EnsembleResult& found, const std::filesystem::path& folder, bool writes, bool keeps_members) {
   const Ensemble& ensemble = found.ensemble;
   const size_t n = ensemble.counted().size();
@@ -133,6 +144,8 @@ void tell(const EnsembleResult& found, const std::filesystem::path& folder, bool
     warn(fmt::format("ensemble '{}': {} of {} members did not converge and are left out of its statistics",
                      ensemble.name, ensemble.members.size() - n, ensemble.members.size()));
   for (const std::string& line : ensemble_lines(ensemble, found.scatter)) say("  " + line);
+  for (const std::string& line : ensemble_warnings(ensemble, found.scatter))
+    warn(fmt::format("ensemble '{}': {}", ensemble.name, line));
   if (!writes) return;  // nor where one member alone is continued: the others are not what it has become
   drop_members_before(folder, ensemble, keeps_members);
   write_ensemble(folder, ensemble, found.scatter);
@@ -234,6 +247,7 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   found->ensemble.seed = lua_tointeger(L, -1);
   lua_pop(L, 1);
   take_members(L, *found);
+  count_as_written(*found);
   state.n_members = 0;
   state.shared = nullptr;
   state.declared.mark_used(the_object_at(L, 1).id);

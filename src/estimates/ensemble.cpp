@@ -159,6 +159,17 @@ std::vector<double> sample_of(const Ensemble& ensemble, const std::string& outpu
   return sample;
 }
 
+std::vector<double> values_at(const Ensemble& ensemble, const std::string& output, const std::string& column,
+                              size_t row) {
+  std::vector<double> values;
+  for (const EnsembleMember* member : ensemble.counted()) {
+    const Table* table = table_of(*member, output);
+    CHECK(table, "members have the same outputs");
+    values.push_back(table->column(column).at(row));
+  }
+  return values;
+}
+
 std::string drive_text(const std::vector<Drive>& drives, const std::string& figure) {
   const auto first = std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.figure == figure; });
   if (first == drives.end() || first->correlation.low * first->correlation.high <= 0.0) return "";

@@ -58,6 +58,10 @@ std::vector<OutputScatter> scatter_of(const Ensemble& ensemble);
 std::vector<double> sample_of(const Ensemble& ensemble, const std::string& output, const std::string& column,
                               const std::string& reduction);
 
+// Those in a row.
+std::vector<double> values_at(const Ensemble& ensemble, const std::string& output, const std::string& column,
+                              size_t row);
+
 // "half of the spread is mu": of the strongest drive; empty where none stands out of the noise of n members.
 std::string drive_text(const std::vector<Drive>& drives, const std::string& figure);
 

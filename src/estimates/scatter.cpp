@@ -88,10 +88,32 @@ double sample_quantile(std::vector<double> values, double p) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
+bool are_rounded_alike(const std::vector<double>& values) {
+  constexpr double rounding = 2e-8;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low <= rounding * std::max(std::abs(*low), std::abs(*high));
+}
+
+// The bound is that of repetition (tests): the widest gap of normal values, of their range.
+std::optional<TwoGroups> two_groups(std::vector<double> values) {
+  const auto n = static_cast<int>(values.size());
+  const auto is_known = [](double v) { return std::isfinite(v); };
+  if (n < 8 || !std::all_of(values.begin(), values.end(), is_known)) return {};
+  std::sort(values.begin(), values.end());
+  const int least = std::max(2, n / 8);  // a single one is an outlier, no regime
+  int at = least;
+  for (int i = least; i <= n - least; ++i)
+    if (values[i] - values[i - 1] > values[at] - values[at - 1]) at = i;
+  const double gap = values[at] - values[at - 1], range = values.back() - values.front();
+  if (!(gap > (0.25 + 5.0 / n) * range)) return {};
+  return TwoGroups{n - at, gap, 0.5 * (values[at] + values[at - 1])};
+}
+
 RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
   CHECK(x.size() == y.size() && !x.empty(), "values in pairs");
   const auto is_nan = [](double v) { return std::isnan(v); };
   if (std::any_of(x.begin(), x.end(), is_nan) || std::any_of(y.begin(), y.end(), is_nan)) return {not_a_number};
+  if (are_rounded_alike(x) || are_rounded_alike(y)) return {not_a_number};
   const std::vector<double> a = ranks_of(x), b = ranks_of(y);
   const double centre = sample_mean(a);  // that of both
   double ab = 0.0, aa = 0.0, bb = 0.0;
@@ -100,7 +122,6 @@ RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector
     aa += (a[i] - centre) * (a[i] - centre);
     bb += (b[i] - centre) * (b[i] - centre);
   }
-  if (aa == 0.0 || bb == 0.0) return {not_a_number};
   RankCorrelation found{std::clamp(ab / std::sqrt(aa * bb), -1.0, 1.0)};
   if (a.size() < 4) return found;
   // Fisher's transform, with the variance of Bonett and Wright. Few members may agree by chance: those that do are

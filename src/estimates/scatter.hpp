@@ -22,8 +22,19 @@ double sample_quantile(std::vector<double> values, double p);
 struct RankCorrelation {
   double value = 0.0, low = -1.0, high = 1.0;
 };
-// nan where one of both is the same everywhere.
+// nan where one of both is the same everywhere, or differs by rounding alone.
 RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
+
+// Do values differ by no more than tables round them, which keep nine digits?
+bool are_rounded_alike(const std::vector<double>& values);
+
+// Values that fall into two groups with a gap between them, which normal ones hardly ever leave (once in ten thousand
+// samples); nothing of fewer than eight.
+struct TwoGroups {
+  int n_upper = 0;
+  double gap = 0.0, middle = 0.0;  // between the groups
+};
+std::optional<TwoGroups> two_groups(std::vector<double> values);
 
 // Row by row over the members' tables: median, lowest, highest; of levels (spectra: amplitudes above zero) also p95_50
 // and spread, the standard deviation in dB. factor: of p95_50; none: the members are no sample.

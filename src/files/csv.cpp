@@ -110,6 +110,23 @@ Table read_csv(const std::filesystem::path& path, const std::vector<std::string>
   }
 }
 
+namespace {
+
+// The time of a long record advances by far less than its ninth digit.
+int digits_of(const std::string& column) { return column == "time" ? 15 : 9; }
+
+}  // namespace
+
+Table as_written(Table table) {
+  for (size_t i = 0; i < table.columns.size(); ++i)
+    for (double& value : table.columns[i]) {
+      char text[40] = {};
+      fmt::format_to_n(text, sizeof text - 1, "{:.{}g}", value + 0.0, digits_of(table.names[i]));
+      value = std::strtod(text, nullptr);
+    }
+  return table;
+}
+
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names) {
   check(table, step_names.size());
   std::string text;
@@ -123,13 +140,12 @@ std::string csv_text(const Table& table, const std::vector<std::string>& step_na
   text += table.converged.empty() ? "\n" : ",converged\n";
   std::vector<std::string> steps;
   for (const std::string& name : step_names) steps.push_back(quoted(name));
-  // The time of a long record advances by far less than its ninth digit.
-  std::vector<const char*> formats;
-  for (const std::string& name : table.names) formats.push_back(name == "time" ? "{:.15g}" : "{:.9g}");
+  std::vector<int> digits;
+  for (const std::string& name : table.names) digits.push_back(digits_of(name));
   for (size_t row = 0; row < static_cast<size_t>(table.n_rows()); ++row) {
     for (size_t i = 0; i < table.columns.size(); ++i) {
       if (i > 0) text += ',';
-      fmt::format_to(out, fmt::runtime(formats[i]), table.columns[i][row] + 0.0);  // + 0: no "-0"
+      fmt::format_to(out, "{:.{}g}", table.columns[i][row] + 0.0, digits[i]);  // + 0: no "-0"
       if (i == 0 && !table.step.empty()) text += ',' + steps[static_cast<size_t>(table.step[row])];
     }
     text += table.converged.empty() ? "\n" : table.converged[row] != 0.0 ? ",1\n" : ",0\n";

@@ -18,6 +18,9 @@ std::string quoted(const std::string& text);
 // or 0. Texts with a comma, a quotation mark or a line break are quoted (RFC 4180).
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names);
 
+// The same table with its numbers as that text has them: what is read back of it.
+Table as_written(Table table);
+
 // The table of such a text, of a problem with these steps. Throws InputError that tells the line ("line 3: 'x' is no
 // number"), and the file.
 Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names);

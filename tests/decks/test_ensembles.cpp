@@ -1,12 +1,15 @@
 // Ensembles: members are what they would be alone, and what they come to is what mathematics says.
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include "decks/deck_prints.hpp"
 #include "estimates/scatter.hpp"
+#include "files/csv.hpp"
 
 namespace dygita::test::ensembles_tests {
 namespace {
@@ -245,6 +248,63 @@ end
   std::filesystem::remove_all(folder);
 }
 
+// What a continued ensemble reads back of members that ran before is what an uninterrupted one counts.
+TEST(Ensemble, counts_what_the_tables_of_its_members_have) {
+  const std::filesystem::path folder = own_folder();
+  std::string deck = linear_bar;
+  deck.replace(deck.rfind(":run{}"), 6, ":run{ members = true }");
+  testing::internal::CaptureStdout();
+  run_in(folder, deck + R"(
+for _, f in ipairs{ 10*kHz, 20*kHz, 40*kHz } do print(("limit %d: %.17g"):format(f, r[srs].p95_50:at(f))) end
+for i = 1, #r do print(("largest %d: %.17g"):format(i, r[i][a].max)) end
+print(("of all members: %.17g"):format(r[a].max.max))
+)");
+  const Printed printed{testing::internal::GetCapturedStdout()};
+  std::vector<Table> spectra;
+  std::vector<const std::vector<double>*> columns;
+  double highest = 0.0;
+  for (int i = 1; i <= 12; ++i) {
+    const std::filesystem::path member = folder / "out" / "bar" / fmt::format("ensemble_{:02}", i);
+    spectra.push_back(read_csv(member / "srs.csv", {}));
+    const std::vector<double> a = read_csv(member / "a.csv", {"hit"}).column("acceleration");
+    const double largest = *std::max_element(a.begin(), a.end());
+    EXPECT_EQ(printed["largest " + std::to_string(i)], largest);
+    highest = std::max(highest, largest);
+  }
+  EXPECT_EQ(printed["of all members"], highest);
+  for (const Table& table : spectra) columns.push_back(&table.column("maximax"));
+  const std::vector<double>& at = spectra[0].columns[0];
+  const Table limits =
+      scatter_of({"frequency", "Hz"}, at, {}, columns, {"maximax", "m/s^2"}, true, tolerance_factor(12));
+  for (const double f : {10e3, 20e3, 40e3})
+    for (size_t row = 0; row < at.size(); ++row)
+      if (std::abs(at[row] - f) < 1e-6 * f) {
+        EXPECT_EQ(printed[fmt::format("limit {:.0f}", f)], limits.column("p95_50")[row]) << f;
+      }
+  std::filesystem::remove_all(folder);
+}
+
+// A stop that half of the units reach: their spectra are 40 dB above those of the others.
+TEST(Ensemble, of_two_regimes_is_told_with_its_groups) {
+  const auto ensemble_of = [](const std::string& peak) {
+    std::string deck = linear_bar;
+    deck.replace(deck.find("lognormal(50, 0.3)*MPa"), 22, peak);
+    return deck;
+  };
+  const auto warnings_of = [](const std::string& deck) {
+    testing::internal::CaptureStderr();
+    printed_by(deck);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string two = warnings_of(ensemble_of("{ 1*MPa, 1.1*MPa, 1.2*MPa, 1e8, 1.1e8, 1.2e8 }"));
+  EXPECT_NE(two.find("spectrum 'srs': 6 of 12 members lie 38 dB or more above the others at "), std::string::npos)
+      << two;
+  EXPECT_NE(two.find("(there are two groups from 10 kHz to 40 kHz): two regimes"), std::string::npos) << two;
+  EXPECT_NE(two.find("dB above all members"), std::string::npos) << two;
+  const std::string one = warnings_of(ensemble_of("lognormal(50, 1.5)*MPa"));
+  EXPECT_EQ(one.find("regimes"), std::string::npos) << one;
+}
+
 TEST(Ensemble, without_a_member_that_converged_says_so) {
   std::string deck = blocks.substr(0, blocks.find("for i = 1, #r"));
   deck.replace(deck.find("tolerance = 1e-8"), 16, "max_iterations = 2, tolerance = 1e-8");
@@ -281,6 +341,13 @@ TEST(Ensemble, writes_its_statistics) {
   EXPECT_EQ(lines("ensemble_members.csv").at(0).rfind("member,idle,peak,", 0), 0u);
   EXPECT_EQ(lines("ensemble_drives.csv").at(0), "figure,parameter,rank_correlation,lowest,highest,share");
   EXPECT_NE(lines("srs.svg").at(0).find("<svg"), std::string::npos);
+  std::ostringstream page;
+  page << std::ifstream(own / "report.html").rdbuf();
+  for (const char* text :
+       {"12 members (latin hypercube, seed 3)", "spectrum &#39;srs&#39;: P95/50 exceeds its specification by",
+        "P95/50 is mean + 1.69 deviations of the logarithms of 12 members", "<td>a.acceleration largest</td>",
+        "% of the spread is peak (rank correlation 1.00", "<td>ensemble_12</td>"})
+    EXPECT_NE(page.str().find(text), std::string::npos) << text;
   std::ostringstream record;
   record << std::ifstream(own / "ensemble.json").rdbuf();
   EXPECT_NE(record.str().find("\"method\": \"latin hypercube\""), std::string::npos);

@@ -84,6 +84,46 @@ TEST(RankCorrelation, is_one_for_whatever_rises_and_nan_for_what_does_not_vary) 
   EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {1, 5, 5, 7}).value, 4.5 / std::sqrt(5.0 * 4.5), 1e-12);
 }
 
+// What nine digits leave of one number in several members has no driver.
+TEST(RankCorrelation, is_nan_for_what_differs_by_rounding) {
+  std::vector<double> x, rounding, rising;
+  for (int i = 0; i < 8; ++i) {
+    x.push_back(i);
+    rounding.push_back(2e4 * (1.0 + 1e-9 * i));
+    rising.push_back(2e4 * (1.0 + 1e-7 * i));
+  }
+  EXPECT_TRUE(std::isnan(rank_correlation(x, rounding).value));
+  EXPECT_EQ(rank_correlation(x, rising).value, 1.0);
+}
+
+TEST(TwoGroups, are_told_with_their_sizes_and_the_gap) {
+  const std::optional<TwoGroups> found = two_groups({10.2, 0.0, 0.1, 10.0, 0.2, 0.3, 10.1, 0.4});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->n_upper, 3);
+  EXPECT_NEAR(found->gap, 9.6, 1e-12);
+  EXPECT_NEAR(found->middle, 5.2, 1e-12);
+  EXPECT_FALSE(two_groups({0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_FALSE(two_groups({0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 10}));  // one is an outlier
+  EXPECT_FALSE(two_groups({0, 0.1, 0.2, 10, 10.1, 10.2, 10.3}));    // too few to tell
+  EXPECT_FALSE(two_groups(std::vector<double>(9, 1.0)));
+  EXPECT_FALSE(two_groups({0, 0, 0, 0, 1, 1, 1, NAN}));
+}
+
+TEST(TwoGroups, are_hardly_ever_found_in_normal_values) {
+  std::mt19937_64 generator(5);
+  constexpr int repetitions = 30000;
+  for (const int n : {8, 10, 16, 64}) {
+    int found = 0;
+    for (int r = 0; r < repetitions; ++r) {
+      std::vector<double> values;
+      for (int i = 0; i < n; ++i)
+        values.push_back(normal_quantile((static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53));
+      found += two_groups(std::move(values)).has_value();
+    }
+    EXPECT_LE(found, 9) << n;  // three expected
+  }
+}
+
 // Of normal pairs with correlation rho Spearman's is 6/pi asin(rho/2); its bounds hold it 95 times in a hundred.
 TEST(RankCorrelation, bounds_hold_the_true_value_as_often_as_they_say) {
   std::mt19937_64 generator(11);

@@ -35,6 +35,7 @@ TEST(Csv, tells_the_times_of_short_steps_after_a_long_while) {
   std::istringstream stream(text);
   const Table read = parse_csv(stream, {});
   for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(read.columns[0][i], table.columns[0][i], 1e-6 * dt);
+  EXPECT_EQ(as_written(table).columns, read.columns);
 }
 
 TEST(Csv, of_a_spectrum_has_no_step) {
