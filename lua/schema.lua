@@ -1147,7 +1147,7 @@ local methods = {
     },
   },
   {
-    kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region", unwraps = "where",
+    kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region", unwraps = "where", tells_frame = true,
     doc = "The nodes at which the function returns true; near(a, b) compares coordinates with a tolerance.",
     argument = { "function", type = "function", doc = "function(x, y, z), in metres" },
     arguments = {

@@ -125,7 +125,7 @@ for _, entry in ipairs(schema.methods) do
     local by_table = entry.arguments and (not entry.argument or type((...)) == "table")
     if by_table then
       checked = check.call(entry, line, ...)
-      if entry.unwraps then checked = checked[entry.unwraps] end
+      if entry.unwraps and not checked.seen_from then checked = checked[entry.unwraps] end
     elseif not entry.argument then
       if select("#", ...) > 0 then fail(line, ("%s is written %s"):format(entry[1], entry.write)) end
     else checked = check.plain(entry, line, ...) end

@@ -72,16 +72,20 @@ bool answers_true(lua_State* L, int function, const Vec3& x, const std::string& 
 Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin) {
   Region region{part, {}};
   const Points& nodes = part->mesh->nodes;
+  const bool is_in_frame = lua_istable(L, 3);
+  const View view = is_in_frame ? view_of(LuaArguments(L, 3, "substructure:where", origin, "")) : View();
+  if (is_in_frame) lua_getfield(L, 3, "where");
+  const int function = is_in_frame ? lua_gettop(L) : 3;
   for (int i = 0; i < part->mesh->n_nodes(); ++i) {
     if (!part->mesh->inside->is_place(i)) continue;
     const Vec3 x = nodes.col(i) + part->place;
-    if (answers_true(L, 3, x, part->name, origin)) region.nodes.push_back(i);
+    if (answers_true(L, function, x, part->name, origin)) region.nodes.push_back(i);
   }
   if (region.nodes.empty()) {
     throw InputError(origin,
                      fmt::format("substructure '{}': 'where' selects none of its {} nodes\n    they span {}; compare "
                                  "coordinates with near(a, b)",
-                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place, {})));
+                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place, view)));
   }
   return region;
 }

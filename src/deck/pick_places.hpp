@@ -8,7 +8,8 @@
 
 namespace dygita {
 
-// part:where(function): the function at stack index 3. Throws InputError where it answers true for no node.
+// part:where(function): the function at stack index 3, or a table of it and of the frame that it is meant in. Throws
+// InputError where it answers true for no node.
 Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin);
 
 // part:face{ ... }: checked arguments at stack index 3. Throws InputError where no facet fits.

@@ -6,6 +6,7 @@
 
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "files/run_folder.hpp"
 
 namespace dygita {
@@ -15,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string digest_of_file(const fs::path& path) {
+  require_readable(path);
   std::ifstream file(path, std::ios::binary);
   Fnv1a digest;
   std::string block(1 << 16, '\0');

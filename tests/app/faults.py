@@ -252,6 +252,22 @@ def interrupted():
             check((run / name).exists(), f"{number}: no {name}")
 
 
+def stopped_before_anything_was_sampled():
+    """What the run has not looked at it does not call free of errors."""
+    out = FOLDER / "soon"
+    process = subprocess.Popen([PROGRAM, *map(str, deck_command(out, "--set", "us=100000"))], stdout=subprocess.PIPE, text=True,
+                               stderr=subprocess.STDOUT)
+    while process.poll() is None and frames_of(out) < 28:  # of the static step
+        time.sleep(0.001)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGTERM)
+    output = process.communicate()[0]
+    increments = [int(line.split(": ")[1].split()[0]) for line in output.splitlines() if "dynamic 'strike': " in line]
+    check(increments and 0 < increments[0] < 20000, f"not stopped in the first fifth of the step: {increments}\n{output}")
+    check("mesh 0 " not in output, output)
+    check((out / "stopped" / "base" / "srs.csv").exists() and not (out / "stopped" / "base" / "srs_band.csv").exists(), "bands of nothing")
+
+
 def a_spoiled_checkpoint():
     run, _ = stopped_run("spoiled", signal.SIGKILL, "--set", "us=2000")
     checkpoint = run / "checkpoint.dygita"
@@ -410,8 +426,8 @@ def is_running(pid):
 
 
 for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, energies_that_overflow, little_memory,
-              a_disk_that_the_checkpoint_fills, a_small_disk, a_disk_that_is_full_at_once, interrupted, a_spoiled_checkpoint, a_load_that_changed,
-              a_state_without_a_record, a_folder_that_is_removed, pipes_in_the_place_of_files, decks_that_take_long, a_time_limit_of_the_clock,
+              a_disk_that_the_checkpoint_fills, a_small_disk, a_disk_that_is_full_at_once, interrupted, stopped_before_anything_was_sampled, a_spoiled_checkpoint,
+              a_load_that_changed, a_state_without_a_record, a_folder_that_is_removed, pipes_in_the_place_of_files, decks_that_take_long, a_time_limit_of_the_clock,
               a_kill_while_the_mesher_starts):
     fault()
 shutil.rmtree(FOLDER)

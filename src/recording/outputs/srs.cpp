@@ -100,7 +100,9 @@ class SrsOutput final : public Output {
       table.columns = {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual};
       if (!of_->is_prescribed(end.problem)) {  // what is prescribed has no error, and ends as the deck says
         const std::vector<double>& record = judged_ == "primary" ? srs.ending.primary : srs.ending.maximax;
-        if (!end.problem.explicit_dynamics)
+        // A run that is stopped before anything was sampled knows nothing of its mesh.
+        const bool is_known = !end.result.interrupted || end.errors.mesh > 0.0;
+        if (!end.problem.explicit_dynamics && is_known)
           findings.band = spectrum_band(table, srs_.quantity, end.errors, record, judged_.c_str());
         findings.model =
             doubts_of_end("spectrum '" + name + "'", srs, record, judged, end_of_record(end.problem, history, 1));
