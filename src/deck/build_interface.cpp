@@ -52,7 +52,7 @@ void settle_gap(const Declaration& d, const std::string& who_1, const std::strin
 }
 
 // Faces that are named meet where they are near, within a distance that the assembly gives: not less than their own.
-// Round ones that are apart meet all around.
+// Round ones that are apart meet all around, one on a plane beside the line.
 void set_named_faces(const Declaration& d, const Face& one, const Face& other, Interface& interface) {
   const bool is_given = interface.within.has_value();
   interface.side_1 = with_facets(one, other, interface.within);
@@ -60,8 +60,8 @@ void set_named_faces(const Declaration& d, const Face& one, const Face& other, I
   const double size = std::max(extent_of(*one.part).size().norm(), extent_of(*other.part).size().norm());
   const double within = interface.within.value_or(default_share_of_size * size);
   if (!is_given && d.arguments.has("gap") && !has_gap_of_its_own(d))
-    if (const double apart = 2.0 * clearance_of_round(interface.side_1, interface.side_2); apart > within)
-      interface.within = apart;
+    if (const double reach = reach_of_round(interface.side_1, interface.side_2); reach > within)
+      interface.within = reach;
   const GapDoubt doubt = doubt_of_gap(interface.side_1, interface.side_2, interface.within.value_or(within));
   // Where 'within' is larger than what facets hide, the check of the whole problem tells it.
   if (!is_given || doubt.is_hidden || (doubt.is_known && d.arguments.has("gap")))

@@ -36,10 +36,16 @@ void take_gaps_of_places(const Problem& problem, const Interface& interface, Fac
   add_form(interface, facing);
   const auto largest = [&] { return facing.n_points() > 0 ? facing.gaps.cwiseAbs().maxCoeff() : 0.0; };
   double off = facing.sagitta, allowed = of_largest;
-  if (off > allowed * largest() && off > rounding)
-    if (const auto round = round_gaps(placed(interface.side_1), placed(interface.side_2), facing)) {
+  const bool are_off = off > allowed * largest() && off > rounding;
+  if (are_off || interface.is_gap_drawn)
+    if (const auto round = round_gaps(placed(interface.side_1), placed(interface.side_2), facing);
+        round && (are_off || round->is_on_flat)) {
       facing.gaps += round->gaps - of_facets;
       off = std::max(round->bend, round->off);
+      if (round->is_on_flat && interface.is_gap_drawn) {  // a parabola beside a line, as finely as the mesh has it
+        facing.gaps.array() -= round->missed;
+        off = 0.0;
+      }
       allowed = of_round;
     }
   if (off > allowed * largest() && off > rounding)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mesh/face_nodes.hpp"
 #include "numerics/dense.hpp"
@@ -178,6 +179,13 @@ std::optional<double> RoundSurface::even_gap(const RoundSurface& other) const {
   return gap;
 }
 
+std::optional<double> RoundSurface::above(const RoundSurface& flat) const {
+  constexpr double along = 1e-6;
+  const Vec3 normal = flat.normal(flat.centre_);
+  if (kind_ == Kind::cylinder && std::abs(axis_.dot(normal)) > along) return {};
+  return normal.dot(centre_ - flat.centre_) - radius_;
+}
+
 RoundFace::RoundFace(const PlacedFace& face) {
   for (const PlacedFace& patch : smooth_parts(face)) {
     const std::optional<RoundSurface> surface = RoundSurface::through(patch);
@@ -204,6 +212,32 @@ double RoundFace::least_radius() const {
 std::optional<double> RoundFace::even_gap(const RoundFace& other) const {
   if (surfaces_.size() != 1 || other.surfaces_.size() != 1 || !is_known_ || !other.is_known_) return {};
   return surfaces_[0].even_gap(other.surfaces_[0]);
+}
+
+std::pair<const RoundSurface*, const RoundSurface*> RoundFace::flat_and_round(const RoundFace& other) const {
+  if (surfaces_.size() != 1 || other.surfaces_.size() != 1 || !is_known_ || !other.is_known_) return {};
+  const RoundSurface *flat = &surfaces_[0], *round = &other.surfaces_[0];
+  if (!flat->is_flat()) std::swap(flat, round);
+  if (!flat->is_flat() || !round->bulges()) return {};
+  return {flat, round};
+}
+
+double RoundFace::reach_on_flat(const RoundFace& other) const {
+  constexpr double heights = 49.0;  // the gap three and a half facets from the middle of the first
+  constexpr double of_radius = 0.125;
+  const RoundSurface* round = flat_and_round(other).second;
+  return round ? std::min(heights * round->height(), of_radius * round->radius()) : 0.0;
+}
+
+double RoundFace::missed_on_flat(const RoundFace& other, double least_at_nodes) const {
+  constexpr double more = 1.01;
+  constexpr double of_indentation =
+      5e-4;  // of the radius, as deep as metals give: so much of it is a matter of the mesh
+  const auto [flat, round] = flat_and_round(other);
+  if (!round) return 0.0;
+  const double missed = least_at_nodes - round->above(*flat).value_or(least_at_nodes);
+  // Where it is more than an arc, the line is not where the faces meet.
+  return missed < more * round->height() ? std::max(0.0, missed - of_indentation * round->radius()) : 0.0;
 }
 
 double RoundFace::off() const {
@@ -235,7 +269,7 @@ std::optional<RoundGaps> round_gaps(const PlacedFace& side_1, const PlacedFace& 
     if (!to_1 || !to_2) return {};
     return *to_2 - *to_1;
   };
-  RoundGaps found{Vec(facing.n_points()), 0.0, face_1.off() + face_2.off()};
+  RoundGaps found{Vec(facing.n_points()), 0.0, face_1.off() + face_2.off(), face_1.reach_on_flat(face_2) > 0.0};
   for (int i = 0; i < facing.n_points(); ++i) {
     const std::optional<double> own = gap(facing.places.col(i), facing.normals.col(i), i);
     if (!own) return {};
@@ -252,6 +286,7 @@ std::optional<RoundGaps> round_gaps(const PlacedFace& side_1, const PlacedFace& 
         found.bend = std::max(found.bend, std::abs(*middle - 0.5 * (found.gaps[i] + found.gaps[j])));
     }
   }
+  if (facing.n_points() > 0) found.missed = face_1.missed_on_flat(face_2, found.gaps.minCoeff());
   return found;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "meeting/facing.hpp"
@@ -23,6 +24,12 @@ class RoundSurface {
   std::optional<double> even_gap(const RoundSurface& other) const;
   // m; 0 of a plane.
   double radius() const { return radius_; }
+  bool is_flat() const { return kind_ == Kind::plane; }
+  // Is the body within a cylinder or a sphere?
+  bool bulges() const { return kind_ != Kind::plane && sign_ > 0.0; }
+  double height() const { return height_; }  // m, of its arcs over the facets at most
+  // m, least, of this one above a plane; none where an axis is not along the plane.
+  std::optional<double> above(const RoundSurface& flat) const;
   // m, how far corners are off it at most.
   double off() const { return off_; }
 
@@ -57,11 +64,20 @@ class RoundFace {
   double least_radius() const;  // m, of the curved ones
   // m, between one cylinder and another around the same axis, or such spheres; none where it is nothing.
   std::optional<double> even_gap(const RoundFace& other) const;
+  // m, how far apart a plane and a cylinder or sphere that bulges may be for some facets beside the line or point where
+  // they touch to take part; 0 of other faces.
+  double reach_on_flat(const RoundFace& other) const;
+  // m, by how much a least gap at some nodes exceeds that of the surfaces there, beyond what a load closes: the line
+  // may lie between two of them.
+  double missed_on_flat(const RoundFace& other, double least_at_nodes) const;
   double off() const;
   // m, of the surface that has a node and whose normal is nearest to a direction or its opposite.
   std::optional<double> along(const Vec3& x, const Vec3& direction, int node) const;
 
  private:
+  // A plane and what bulges towards it; nothing of other faces.
+  std::pair<const RoundSurface*, const RoundSurface*> flat_and_round(const RoundFace& other) const;
+
   std::vector<RoundSurface> surfaces_;
   std::unordered_map<int, std::vector<int>> of_node_;
   bool is_known_ = true;
@@ -72,6 +88,8 @@ class RoundFace {
 struct RoundGaps {
   Vec gaps;
   double bend = 0.0, off = 0.0;
+  bool is_on_flat = false;  // along a line or at a point,
+  double missed = 0.0;      // m, which lies between the points: the least of the gaps is as much too large
 };
 std::optional<RoundGaps> round_gaps(const PlacedFace& side_1, const PlacedFace& side_2, const Facing& facing);
 

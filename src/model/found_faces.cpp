@@ -156,13 +156,17 @@ std::string GapDoubt::neglected() const {
   return is_empty() || is_slight ? "" : apart + ", which is neglected: the interface starts closed " + on_average;
 }
 
-std::string GapDoubt::kept() const { return apart + ", which is kept, as that of the round surfaces " + on_average; }
+std::string GapDoubt::kept() const {
+  return apart + (overlaps ? ", which a static step presses apart" : ", which is kept") +
+         ", as that of the round surfaces " + on_average;
+}
 
-double clearance_of_round(const Face& side_1, const Face& side_2) {
+double reach_of_round(const Face& side_1, const Face& side_2) {
   constexpr double most = 0.1;  // of a radius: faces further apart are not made to meet
   const RoundFace round_1(placed(side_1)), round_2(placed(side_2));
+  if (const double reach = round_1.reach_on_flat(round_2); reach > 0.0) return reach;
   const double even = round_1.even_gap(round_2).value_or(0.0);
-  return even < most * std::min(round_1.least_radius(), round_2.least_radius()) ? std::max(0.0, even) : 0.0;
+  return even < most * std::min(round_1.least_radius(), round_2.least_radius()) ? std::max(0.0, 2.0 * even) : 0.0;
 }
 
 GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
@@ -181,7 +185,10 @@ GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
   doubt.on_average = fmt::format("(a gap of {:.2g} mm on average over {:.4g} mm^2)", 1e3 * gaps.mean, 1e6 * gaps.area);
   doubt.is_hidden = doubt.largest <= 2.0 * gaps.bend;
   doubt.is_slight = is_slight;
-  doubt.is_known = even && *even > -most_interference * std::min(round_1.least_radius(), round_2.least_radius());
+  doubt.overlaps = !is_apart;
+  const double reach = round_1.reach_on_flat(round_2);  // what is nearer would leave out what the load brings together
+  doubt.is_known = (reach > 0.0 && within >= reach) ||
+                   (even && *even > -most_interference * std::min(round_1.least_radius(), round_2.least_radius()));
   return doubt;
 }
 

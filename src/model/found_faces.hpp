@@ -49,7 +49,9 @@ struct GapDoubt {
   double largest = 0.0;    // m
   bool is_hidden = false;  // facets are as far off their round surfaces
   bool is_slight = false;  // facets may hide all of it
-  bool is_known = false;   // cylinders around one axis, or such spheres: the gap is the same all around
+  bool overlaps = false;
+  // Cylinders around one axis, or such spheres: the gap is the same all around; or one of these on a plane.
+  bool is_known = false;
 
   bool is_empty() const { return apart.empty(); }
   std::string neglected() const;
@@ -57,8 +59,9 @@ struct GapDoubt {
 };
 // Doubts of one kind are told together.
 KindOfWarning kind_of(const GapDoubt& doubt, bool is_kept, const std::string& who_1, const std::string& who_2);
-// m, between cylinders around one axis, or such spheres, that are apart; else 0.
-double clearance_of_round(const Face& side_1, const Face& side_2);
+// m, how far apart facets of round faces may be that meet: all around between cylinders around one axis, or such
+// spheres, that are apart; beside the line where one lies on a plane; else 0.
+double reach_of_round(const Face& side_1, const Face& side_2);
 GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within);
 
 }  // namespace dygita

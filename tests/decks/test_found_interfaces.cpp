@@ -205,12 +205,13 @@ local fit = interface.contact{ name = "fit", between = { round(inner), round(out
     return testing::internal::GetCapturedStderr();
   };
   const std::string said = said_of("20*um", "0");
-  EXPECT_NE(said.find("overlap by up to 0.02 mm, which is kept, as that of the round surfaces"), std::string::npos)
+  EXPECT_NE(said.find("overlap by up to 0.02 mm, which a static step presses apart, as that of the round surfaces"),
+            std::string::npos)
       << said;
   EXPECT_NE(said.find("(a gap of -0.02 mm on average over 62.8"), std::string::npos) << said;
   EXPECT_NE(said_of("-20*um", "0").find("are apart by up to 0.02"), std::string::npos);
   for (const auto& [over, gap] : {std::pair{"20*um", "-20*um"}, {"0", "0"}})
-    for (const char* told : {"is neglected", "is kept"})
+    for (const char* told : {"is neglected", "is kept", "presses apart"})
       EXPECT_EQ(said_of(over, gap).find(told), std::string::npos) << over;
 }
 
@@ -231,9 +232,9 @@ assert(#fits == 2)
   run_text(text);
   tell_warnings();
   const std::string said = testing::internal::GetCapturedStderr();
-  const size_t first = said.find("overlap by up to 0.008 mm, which is kept");
+  const size_t first = said.find("overlap by up to 0.008 mm, which a static step presses apart");
   EXPECT_NE(first, std::string::npos) << said;
-  EXPECT_EQ(said.find("is kept", first + 40), std::string::npos) << said;
+  EXPECT_EQ(said.find("presses apart", first + 70), std::string::npos) << said;
   EXPECT_NE(said.find("\n    the worst of 2 of this kind; the other: 'inner"), std::string::npos) << said;
 }
 
