@@ -32,6 +32,7 @@ class ErrorEstimator {
     double step_frequency = 0.0, mesh_frequency = 0.0, mesh_amplitude = 0.0;
     // Of mesh_frequency: what goes with the frequency, and what all frequencies have alike.
     double mesh_dispersion = 0.0, mesh_shift = 0.0;
+    double imbalance = 0.0;      // of the energy of the motion, what its balance misses: who keeps the books says so
     bool joints_change = false;  // in the shock contacts touch, open or slide, or laws yield: who watches them says so
   };
   Estimate static_steps() const { return static_; }

@@ -86,7 +86,9 @@ Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEsti
       continue;
     }
     const double of_velocity = level / maximax[i];
-    band.columns[iteration_column].push_back(decibels(1.0 + of_velocity * errors.iteration));
+    // Errors without a common sign are those of a motion beside the true one; what has one is missing in the balance.
+    band.columns[iteration_column].push_back(
+        std::hypot(decibels(1.0 + of_velocity * errors.iteration), decibels(1.0 + errors.imbalance)));
     band.columns[time_step_column].push_back(decibels(1.0 + of_velocity * errors.time_step));
     band.columns[mesh_column].push_back(
         std::hypot(largest_within(frequency, maximax, i, moved_at(frequency[i], errors)),

@@ -1,5 +1,5 @@
 // What iteration, time step, mesh and the end of the record leave on a shock response spectrum, in dB (manual, eq. Q7,
-// Q8, Q15, N3).
+// Q8, Q15, Q16, N3).
 #pragma once
 
 #include "estimates/error_estimator.hpp"

@@ -160,6 +160,7 @@ void Collector::finish_outputs(RunResult& result) {
     if (!output->columns().empty()) result.tables[output] = std::move(table);
   }
   RunEnd end{problem_, result, parts_.errors().dynamic_steps(), parts_.errors().static_steps()};
+  end.errors.imbalance = of_motion_.imbalance_so_far(parts_.errors().energy_at_rest());
   end.errors.joints_change = joints_give_ || contacts_change(problem_, result.contacts);
   for (const OutputPtr& output : problem_.outputs) {
     if (output->columns().empty()) continue;

@@ -1,6 +1,7 @@
 // Watches a run and keeps what the problem's outputs ask for; nothing else is computed.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "model/output.hpp"
@@ -20,6 +21,9 @@ struct EnergyBooks {
   double worst_imbalance = 0.0, most_lost = 0.0, most_gained = 0.0, most_in_springs = 0.0;  // %, of what has ended
   double largest = 0.0;  // J, of `energy`, of what has ended
   void end(double at_rest);
+  double imbalance_so_far(double at_rest) const {  // relative
+    return std::max(0.01 * worst_imbalance, energy > at_rest ? imbalance / energy : 0.0);
+  }
 };
 
 class Collector : public Observer {

@@ -68,6 +68,35 @@ TEST(SpectrumBand, warns_where_little_is_known_and_only_there) {
   EXPECT_EQ(said.find("spectrum 'srs_above' is uncertain by about"), std::string::npos) << said;
 }
 
+// A lap that two plates are pressed together in: what a loose tolerance brings in has a common sign, increment after
+// increment, and is missing in the balance.
+TEST(SpectrumBand, of_the_iteration_holds_what_builds_up) {
+  for (const char* number : {"14", "17", "18"})
+    for (const double tolerance : {1e-3, 1e-4}) {
+      const auto run = [&](double to) {
+        return run_spectra(std::filesystem::path(DYGITA_SOURCE_DIR) / "tests/bench/scenes.lua",
+                           {{"scene", number}, {"n", "1"}, {"finer", "1"}}, {}, 0.0, 0.0, to);
+      };
+      const SpectraRun loose = run(tolerance), tight = run(1e-7);
+      double least = 1e300;
+      for (size_t i = 0; i < loose.spectra.size(); ++i) {
+        const BandWorth worth = band_worth(loose.spectra[i], tight.spectra[i], "iteration");
+        std::cout << "  scene " << number << ", tolerance " << tolerance << ": " << worth.band << " / " << worth.truth
+                  << " dB\n";
+        least = std::min(least, worth.band / worth.truth);
+      }
+      EXPECT_GT(least, 1.0 / 3.0) << number;
+    }
+}
+
+TEST(SpectrumBand, of_the_iteration_has_what_the_balance_misses) {
+  const Table spectrum{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 200.0}, {2.0, 3.0}}, {}};
+  ErrorEstimator::Estimate errors;
+  errors.velocity = 1e-2, errors.imbalance = 0.05;
+  const Table band = spectrum_band(spectrum, SrsQuantity::absolute_acceleration, errors);
+  for (const double decibels : band.column("iteration")) EXPECT_NEAR(decibels, 20.0 * std::log10(1.05), 1e-12);
+}
+
 // A spectrum that rises with the square of the frequency changes by twice the share by which the mesh moves it, and one
 // that is level not at all; amplitudes are off by the square of what stresses are.
 TEST(SpectrumBand, of_the_mesh_is_that_of_a_spectrum_moved_along_its_frequencies) {
