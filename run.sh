@@ -46,7 +46,7 @@ usage() {
 ./run.sh random MINUTES [--seed S]  random scenes against what must be so of any (tests/random): turned, mirrored, cut, continued, by another solver, ...;
                           what fails is shrunk to a small deck in build/random
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
-                          scenes statics scaling ranks those that are named; --quick: small sizes. Full: 25 minutes on a machine left alone.
+                          scenes statics scaling ensembles ranks those that are named; --quick: small sizes. Full: 27 minutes on a machine left alone.
                           Elsewhere, --up-to UNKNOWNS --into DIR; put beside as manual/performance/others/NAME, --page shows it
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
 ./run.sh manual           install what is missing, build the manual as a site with search in build/manual

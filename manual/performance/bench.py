@@ -12,6 +12,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "verification")]
 
+import ensembles  # noqa: E402
 import headline  # noqa: E402
 import kernels  # noqa: E402
 import ranks  # noqa: E402
@@ -21,7 +22,7 @@ import statics  # noqa: E402
 from measure import Machine, processor, read_rows  # noqa: E402
 from page import table  # noqa: E402
 
-PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "statics": statics, "scaling": scaling, "ranks": ranks}
+PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "statics": statics, "scaling": scaling, "ensembles": ensembles, "ranks": ranks}
 
 
 def arguments():

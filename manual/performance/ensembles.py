@@ -1,51 +1,41 @@
-#!/usr/bin/env python3
-"""What an ensemble costs in runs of one member: processor time of all members over that of the median unit alone.
+"""What an ensemble costs in runs of one member: processor time of all members over that of one unit alone, on one thread."""
 
-    manual/performance/ensembles.py build/release/dygita [--members 16] [--set size=7*mm ...]
+from measure import write_rows
+from page import table
 
-Runs decks/flanges_ensemble.lua on one thread, and writes ensembles.csv beside this file.
-"""
-import argparse
-import csv
-import pathlib
-import resource
-import subprocess
-import tempfile
-
-here = pathlib.Path(__file__).resolve().parent
-deck = here.parent.parent / "decks" / "flanges_ensemble.lua"
+MOST_RUNS = 3.0     # of one unit, for 16 members
+SCENES = {"bolted flanges": "decks/flanges_ensemble.lua", "sector of the separation ring": "decks/bench/sector_ensemble.lua"}
 
 
-def seconds(program, settings):
-    """Processor time (s) of a run, that of the mesher included, and the program's text."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    with tempfile.TemporaryDirectory() as out:
-        command = [program, "run", str(deck), "--threads", "1", "--quiet", "--out", out]
-        for setting in settings:
-            command += ["--set", setting]
-        text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, text
+def processor_seconds(machine, deck, settings):
+    """Processor time (s) and peak memory (bytes) of a whole run, mesh and results included."""
+    command = [machine.build / "dygita", "run", machine.root / deck, "--quiet", "--threads", 1, "--out", machine.scratch / f"ensemble_{next(machine.numbers)}"]
+    for name, value in settings.items():
+        command += ["--set", f"{name}={value}"]
+    _, peak, used = machine.run(command, 1800)
+    return used, peak
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--members", type=int, nargs="+", default=[4, 16])
-    parser.add_argument("--set", dest="settings", action="append", default=[])
-    given = parser.parse_args()
-    one, _ = seconds(given.program, given.settings + ["alone=1"])
-    print(f"one unit alone: {one:.1f} s of a processor")
-    rows = [[1, f"{one:.2f}", "1.0"]]
-    for n in given.members:
-        all_members, _ = seconds(given.program, given.settings + [f"n={n}"])
-        rows.append([n, f"{all_members:.2f}", f"{all_members / one:.1f}"])
-        print(f"{n} members: {all_members:.1f} s, {all_members / one:.1f} runs")
-    with open(here / "ensembles.csv", "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["members", "seconds", "runs"])
-        writer.writerows(rows)
+def measure(machine, folder, quick):
+    """Writes ensembles.csv: one row per scene and number of members; one member is a unit alone, with its report and state."""
+    rows = []
+    for scene, deck in SCENES.items():
+        for members in [1, 4] if quick else [1, 4, 16]:
+            machine.say(f"Ensembles: {scene}, {members}")
+            used, peak = processor_seconds(machine, deck, {"alone": 1} if members == 1 else {"n": members})
+            one = used if members == 1 else one
+            rows.append({"scene": scene, "members": members, "processor [s]": used, "runs": used / one, "peak [MB]": peak / 1e6})
+    write_rows(folder / "ensembles.csv", rows)
 
 
-if __name__ == "__main__":
-    main()
+def goals(rows):
+    return [(f"16 members of the {row['scene']}: at most {MOST_RUNS:g} runs of one", f"{row['runs']:.1f}", row["runs"] <= MOST_RUNS,
+             "members share operators, but each goes through its own iterations and substitutions") for row in rows if row["members"] == 16]
+
+
+def section(rows):
+    cells = [(r["scene"], f"{r['members']:.0f}", f"{r['processor [s]']:.1f}", f"{r['runs']:.1f}", f"{r['peak [MB]']:.0f}") for r in rows]
+    return "\n\n".join([
+        "## Ensembles", "Processor time on one thread, mesh and results included: one unit alone, with its report and state, and all members of an [ensemble](howto/ensembles.md), "
+        "which share cut, matrices, factors and interface operators.",
+        table(["scene", "members", "processor time [s]", "runs of one unit", "peak memory [MB]"], cells)])
