@@ -113,6 +113,14 @@ local by_hand = {
     { "tapped", type = "boolean", default = false, doc = "screwed into the last part, without a nut" },
   },
 }
+local function spring_along(axis)
+  return { axis, type = "number", unit = "N/m", range = { 0, 1e15 }, default = 0, default_doc = "none", doc = "stiffness along " .. axis }
+end
+
+local function damper_along(axis)
+  return { axis .. "_damping", type = "number", unit = "N s/m", range = { 0, 1e12 }, default = 0, default_doc = "none", doc = "damper beside it" }
+end
+
 local function share_of_bolt(of)
   return { "share", type = "number", range = { 1e-6, 1 }, default_doc = "1", doc = "modelled fraction: 0.25 of " .. of .. " in a quarter model" }
 end
@@ -430,7 +438,12 @@ words[4] = {
   name = "interface", doc = "Where two substructures meet; everything nonlinear happens here.",
   {
     "bonded", makes = "interface", tightens = true, doc = "A perfect bond.",
-    arguments = { name_unless_all(), between(all_touching), of_parts, except, within(), points() },
+    arguments = {
+      name_unless_all(), between(all_touching), of_parts, except, within(), points(),
+      { "motion", type = "choice", choices = { "points", "mean" }, default = "points",
+        doc = "what is joined: the faces point by point; or their mean motions alone, translation and rotation (RBE3), between which both faces deform freely and may lie apart" },
+      { "weights", type = "choice", choices = { "area", "nodes" }, default = "area", doc = "what counts in a mean motion: the area behind each node, or each node alike" },
+    },
   },
   {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
@@ -532,6 +545,29 @@ words[5] = {
       { "y", in_frame = "held", type = "boolean", default = false, doc = "along y" },
       { "z", in_frame = "held", type = "boolean", default = false, doc = "along z" },
       frame "along whose axes x, y and z are: all three, or those of a plane of the deck",
+    },
+  },
+  {
+    "equation", makes = "support",
+    doc = "A linear equation between motions: along x, y or z, each asked for by itself, the sum of each factor times the mean displacement of its place is zero "
+      .. "(*EQUATION, MPC). It joins places of one part, or of two; with one place it holds the mean motion of that.",
+    arguments = {
+      name_of "support", on({ "face", "region" }, "its terms: faces, which move as their mean by area does, or regions, as the mean of their nodes"),
+      { "factors", type = "numbers", or_single = true, at_least = 1, range = { -1e9, 1e9 }, required = true, doc = "one a place: { 1, -1 } makes two places move alike" },
+      { "x", in_frame = "held", type = "boolean", default = false, doc = "along x" },
+      { "y", in_frame = "held", type = "boolean", default = false, doc = "along y" },
+      { "z", in_frame = "held", type = "boolean", default = false, doc = "along z" },
+      frame "along whose axes x, y and z are: all three, or those of a plane of the deck",
+    },
+  },
+  {
+    "spring", makes = "support",
+    doc = "Springs, and dampers beside them, along the axes of the deck: between the mean motions of two places (*SPRING, CELAS, CBUSH), or of one and the ground.",
+    arguments = {
+      name_of "support",
+      { "on", type = "objects", kinds = { "face", "region" }, at_least = 1, or_single = true, required = true,
+        doc = "one place or two: faces, which move as their mean by area does, or regions, as the mean of their nodes" },
+      spring_along "x", spring_along "y", spring_along "z", damper_along "x", damper_along "y", damper_along "z",
     },
   },
   {

@@ -72,6 +72,16 @@ void set_named_faces(const Declaration& d, const Face& one, const Face& other, I
 void set_sides(const Declaration& d, Interface& interface) {
   const std::vector<const Object*> sides = d.arguments.objects("between");
   const InterfaceSide one = side_of(*sides[0]), other = side_of(*sides[1]);
+  if (d.arguments.has("motion") && d.arguments.text("motion") == "mean") {
+    for (const InterfaceSide* side : {&one, &other})
+      if (!side->face || is_of_points(*side->face))
+        throw InputError(fmt::format("motion = \"mean\" joins two faces, and '{}' is none: name the face of the part",
+                                     side->label()));
+    interface.side_1 = *one.face;
+    interface.side_2 = *other.face;
+    interface.means = d.arguments.text("weights") == "nodes" ? MeanBy::nodes : MeanBy::area;
+    return;
+  }
   if (one.face && other.face) {
     set_named_faces(d, *one.face, *other.face, interface);
     return;

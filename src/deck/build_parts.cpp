@@ -197,6 +197,23 @@ Content build_support(const Declaration& d) {
   auto support = new_named<Support>(d);
   support->on = d.arguments.places("on");
   support->kind = make_support(d.arguments.word(), d.arguments.plain_numbers());
+  if (support->kind->spring(0)) {
+    if (support->on.size() > 2)
+      throw InputError(
+          d.origin, fmt::format("{} '{}': 'on' has {} places: a spring is between two, or one and the ground", d.path,
+                                support->name, support->on.size()));
+    support->factors = {1.0, -1.0};
+    support->factors.resize(support->on.size());
+  }
+  if (!d.arguments.has("factors")) return SupportPtr(support);
+  support->factors = d.arguments.numbers("factors");
+  if (support->factors.size() != support->on.size())
+    throw InputError(d.origin, fmt::format("{} '{}': 'on' has {} places and 'factors' {} numbers: one a place", d.path,
+                                           support->name, support->on.size(), support->factors.size()));
+  for (size_t i = 0; i < support->factors.size(); ++i)
+    if (support->factors[i] == 0.0)
+      throw InputError(d.origin,
+                       fmt::format("{} '{}': 'factors[{}]' is 0: leave its place out", d.path, support->name, i + 1));
   return SupportPtr(support);
 }
 

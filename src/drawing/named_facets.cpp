@@ -59,6 +59,12 @@ class Naming {
 
   void add(const Interface& interface) {
     const std::string name = "interface '" + interface.name + "'";
+    if (interface.means) {
+      result_.joints.push_back({name, true, true});
+      mark(interface.side_1, interface.side_1.facets());
+      mark(interface.side_2, interface.side_2.facets());
+      return;
+    }
     try {
       const Meeting meeting = meeting_of(interface, within_);
       result_.joints.push_back({name, true, true});

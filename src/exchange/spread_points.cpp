@@ -34,10 +34,34 @@ void SpreadPoints::add_point(const Surface& surface, int s, int i) {
   exchange_.ports.push_back(port(surface, 2 * s, i, point.frame));
   if (!point.is_wall) exchange_.ports.push_back(port(surface, 2 * s + 1, i, point.frame));
   for (int d = 0; d < 3; ++d)
-    point.has_law[d] =
-        point.law->acts_on(d, step_.is_static) && (point.is_wall || !is_tied_to_plane(surface, point, d));
+    point.has_law[d] = point.law->acts_on(d, step_.is_static) && surface.facing.acts_along(i, d) &&
+                       (point.is_wall || surface.facing.is_of_sums() || !is_tied_to_plane(surface, point, d));
+  if (surface.facing.is_of_sums()) refuse_driven(surface, point);
   activate(exchange_.ports, false, point);
   exchange_.points.push_back(std::move(point));
+}
+
+// A sum of which supports and loads have every term is theirs: zero where they hold them, else a contradiction.
+void SpreadPoints::refuse_driven(const Surface& surface, const Point& point) const {
+  for (int d = 0; d < 3; ++d) {
+    bool is_free = !point.has_law[d], is_driven = false;
+    for (int p = point.first_port; p < point.end_port; ++p) {
+      const Port& port = exchange_.ports[p];
+      is_free = is_free || !port.is_held[d];
+      port.for_each_node([&](int node, const Mat3& block) {
+        const Held* held = conditions_.at(port.part, node);
+        for (int j = 0; held && j < held->n; ++j)
+          is_driven =
+              is_driven || (!held->motion[j].empty() &&
+                            std::abs(held->directions.col(j).dot(block.transpose() * point.frame.col(d))) > 1e-9);
+      });
+    }
+    if (is_free || !is_driven) continue;
+    throw InputError(
+        surface.wall ? surface.wall->origin : surface.interface->origin,
+        "step '" + step_.name + "': '" + surface.name() +
+            "': loads and supports prescribe all of the motions that it joins, and leave it nothing to hold");
+  }
 }
 
 // Where both sides end on one plane of symmetry, nothing moves along its normal: the side with the points is held
@@ -116,6 +140,7 @@ Port SpreadPoints::port(const Surface& surface, int side, int i, const Mat3& fra
 
 // N, and a tangent along what a support holds of the nodes at the point, so that conditions are per direction there.
 Mat3 SpreadPoints::frame(const Surface& surface, int i) const {
+  if (surface.facing.is_of_sums()) return surface.facing.frames[static_cast<size_t>(i)];
   Vec3 n = surface.facing.normals.col(i), t = Vec3::Zero();
   const SideTrace& trace = surface.facing.carrier == 1 ? surface.facing.side_1 : surface.facing.side_2;
   const Held* held = conditions_.at(surface.facing.carrier == 1 ? surface.part_1 : surface.part_2, trace.main_node(i));

@@ -19,6 +19,7 @@ class SpreadPoints {
   void add_point(const Surface& surface, int s, int i);
   Mat3 frame(const Surface& surface, int i) const;
   Port port(const Surface& surface, int side, int i, const Mat3& frame) const;
+  void refuse_driven(const Surface& surface, const Point& point) const;
   bool is_tied_to_plane(const Surface& surface, const Point& point, int d) const;
   bool has_held_node_at(const Port& port, const Surface& surface, const Point& point, int d) const;
   bool moves_apart(const Port& port, int part, int node, const Vec3& axis) const;

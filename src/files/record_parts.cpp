@@ -95,10 +95,27 @@ Json interfaces_record(const Problem& problem) {
                  {"kind", interface->law->word()},
                  {"between", {interface->side_1.label(), interface->side_2.label()}}};
     add_law(*interface->law, json);
+    if (interface->means) json["motion"] = "mean";
     list.push_back(json);
   }
   return list;
 }
+
+namespace {
+
+void add_sum(const Support& sum, Json& json) {
+  json["factors"] = sum.factors;
+  Json axes = Json::object();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!sum.kind->sums().axes[static_cast<size_t>(axis)]) continue;
+    const auto spring = sum.kind->spring(axis);
+    axes[std::string(1, "xyz"[axis])] =
+        spring ? Json({{"stiffness", spring->stiffness}, {"damping", spring->damping}}) : Json("held");
+  }
+  json["along"] = axes;
+}
+
+}  // namespace
 
 Json supports_record(const Problem& problem) {
   Json list = Json::array();
@@ -107,7 +124,10 @@ Json supports_record(const Problem& problem) {
     for (const FaceOrRegion& place : support->on)
       on.push_back(std::visit([](const auto& p) { return p.label(); }, place));
     Json json = {{"name", support->name}, {"kind", support->kind->word()}, {"on", on}};
-    if (const LawPtr law = support->kind->law()) add_law(*law, json);
+    if (!support->factors.empty())
+      add_sum(*support, json);
+    else if (const LawPtr law = support->kind->law())
+      add_law(*law, json);
     list.push_back(json);
   }
   return list;

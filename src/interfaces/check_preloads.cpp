@@ -44,6 +44,11 @@ void check_preload(const Problem& problem, const Step& step, const Load& load, c
                    const std::vector<Surface>& surfaces) {
   const Interface& interface = *preload.on;
   const Facing& facing = surfaces.at(index_of(problem.interfaces, &interface)).facing;
+  if (facing.is_of_sums())
+    throw InputError(load.origin,
+                     fmt::format("{} acts on interface '{}', which joins mean motions: tighten the shank of a "
+                                 "bolt, whose halves are bonded point by point",
+                                 load.path, interface.name));
   const double area = facing.areas.sum();
   double most = 0.0;
   for (int i = 0; i < step.increments; ++i)

@@ -12,10 +12,12 @@
 #include "base/task.hpp"
 #include "interfaces/check_preloads.hpp"
 #include "interfaces/gaps_of_places.hpp"
+#include "interfaces/sum_surfaces.hpp"
 #include "interfaces/whole_parts.hpp"
 #include "law/law.hpp"
 #include "meeting/mortar.hpp"
 #include "meeting/segments.hpp"
+#include "meeting/sum_facing.hpp"
 
 namespace dygita {
 
@@ -126,6 +128,7 @@ class Rings {
  public:
   Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) : problem_(problem) {
     for (size_t i = 0; i < meetings.size(); ++i) {
+      if (!meetings[i]) continue;  // mean motions are joined
       const Interface& interface = *problem.interfaces[i];
       add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
       add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
@@ -227,16 +230,24 @@ class Rings {
 Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
                  const Rings& rings) {
   const Interface& interface = *problem.interfaces[i];
+  if (interface.means) {
+    try {
+      return facing_of_means(placed(interface.side_1), placed(interface.side_2), *interface.means);
+    } catch (const InputError& error) {
+      throw InputError(interface.origin, "interface '" + interface.name + "': " + error.what());
+    }
+  }
   Facing facing =
       meetings[i]->facing(interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>());
   if (interface.has_gap_of_geometry) take_gaps_of_places(problem, interface, facing);
   return facing;
 }
 
-void follow(const Face& side_1, const Face* side_2, const Origin& origin, const std::string& who, Facing& facing) {
+void follow(const Substructure& part_1, const Substructure* part_2, const Origin& origin, const std::string& who,
+            Facing& facing) {
   try {
-    follow_rigid_faces(side_1.part->mesh.get(), side_1.part->place, side_2 ? side_2->part->mesh.get() : nullptr,
-                       side_2 ? side_2->part->place : Vec3(Vec3::Zero()), facing);
+    follow_rigid_faces(part_1.mesh.get(), part_1.place, part_2 ? part_2->mesh.get() : nullptr,
+                       part_2 ? part_2->place : Vec3(Vec3::Zero()), facing);
   } catch (const InputError& error) {
     throw InputError(origin, who + error.what());
   }
@@ -254,7 +265,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     Task task("points of interfaces", n);
     parallel_for(n, [&](int i) {
       task.tell("'" + problem.interfaces[i]->name + "'");
-      meetings[i].emplace(meeting_of(*problem.interfaces[i], within));
+      if (!problem.interfaces[i]->means) meetings[i].emplace(meeting_of(*problem.interfaces[i], within));
       task.done("'" + problem.interfaces[i]->name + "'");
     });
   }
@@ -268,7 +279,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     surface.part_1 = index_of(problem.substructures, interface->side_1.part.get());
     surface.part_2 = index_of(problem.substructures, interface->side_2.part.get());
     surface.facing = std::move(facings[i]);
-    follow(interface->side_1, &interface->side_2, interface->origin,
+    follow(*interface->side_1.part, interface->side_2.part.get(), interface->origin,
            "interface '" + interface->name + "': ", surface.facing);
     // A tie between meshes that do not match is a law of its own.
     if (has_load(problem, interface.get()) || (interface->law->is_tie() && !surface.facing.matches()))
@@ -282,17 +293,23 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind->law() && std::find(walls.begin(), walls.end(), support.get()) == walls.end())
         walls.push_back(support.get());
-  for (const Support* wall : walls)
+  for (const Support* wall : walls) {
+    if (!wall->factors.empty()) {
+      add_sums(problem, *wall, surfaces);
+      continue;
+    }
     for (const FaceOrRegion& on : wall->on) {
       const Face& face = std::get<Face>(on);
       Surface surface;
       surface.wall = wall;
+      surface.is_on_ground = true;
       surface.part_1 = index_of(problem.substructures, face.part.get());
       surface.facing = facing_of_wall(face);
-      follow(face, nullptr, wall->origin, "support.wall '" + wall->name + "': ", surface.facing);
+      follow(*face.part, nullptr, wall->origin, "support.wall '" + wall->name + "': ", surface.facing);
       surface.law = laws.of(wall->kind->law());
       surfaces.push_back(std::move(surface));
     }
+  }
   check_overlaps(problem, surfaces);
   refuse_seams(problem, surfaces);
   check_preloads(problem, surfaces);

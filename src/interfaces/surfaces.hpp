@@ -14,10 +14,13 @@ struct Surface {
   const Support* wall = nullptr;
   int part_1 = -1, part_2 = -1;  // index in problem.substructures; -1: rigid
   Facing facing;
-  LawPtr law;  // of its points; null: a tie in all steps, the sides become a group
+  LawPtr law;                 // of its points; null: a tie in all steps, the sides become a group
+  bool is_on_ground = false;  // a wall, or an equation whose factors do not cancel: a part alone is held by it
 
   // The law of the interface or the wall, ties included.
-  const Law& declared_law() const { return interface ? *interface->law : *wall->kind->law(); }
+  const Law& declared_law() const {
+    return interface ? *interface->law : facing.is_of_sums() ? *law : *wall->kind->law();
+  }
   const std::string& name() const { return interface ? interface->name : wall->name; }
   int n_points() const { return facing.n_points(); }
 };

@@ -233,7 +233,7 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j)
         pair.offset = std::max(pair.offset, 2.0 * surface.facing.sagitta);
       if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j &&
-          surface.interface->has_gap_of_geometry && surface.n_points() > 0)
+          surface.interface && surface.interface->has_gap_of_geometry && surface.n_points() > 0)
         interference = std::max(interference, -surface.facing.gaps.minCoeff());
       if (surface.part_1 == i && surface.part_2 == j) {
         join(body_1, surface.facing.facets_1);
@@ -334,9 +334,11 @@ void doubt_points(const Problem& problem, const Surface& surface) {
 void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces) {
   for (const Surface& surface : surfaces) {
     if (!surface.interface) continue;
-    doubt_shift(problem, surface);
-    doubt_points(problem, surface);
-    doubt_distance(problem, surface);
+    if (!surface.facing.is_of_sums()) {
+      doubt_shift(problem, surface);
+      doubt_points(problem, surface);
+      doubt_distance(problem, surface);
+    }
     doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets_1);
     doubt_held_side(problem, surface, surface.interface->side_2.part, surface.facing.facets_2);
     if (!surface.declared_law().is_tie()) continue;

@@ -23,9 +23,20 @@ std::string in_mm(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})"
 // Boxes and bolts are made as wholes.
 bool is_from_file(const Mesh& mesh) { return mesh.has_cells() && mesh.source.find('.') != std::string::npos; }
 
-// Facets of a part that an interface joins to others of the same part.
-Joined joined_to_itself(const std::vector<Surface>& surfaces, int part) {
+// Facets of a part that an interface joins to others of the same part, and those of which an equation joins a node to
+// another one of it.
+Joined joined_to_itself(const Mesh& mesh, const std::vector<Surface>& surfaces, int part) {
   Joined joined;
+  std::set<int> in_equations;
+  for (const Surface& surface : surfaces)
+    if (surface.wall && surface.facing.is_of_sums() && surface.part_1 == part && surface.facing.side_1.n_shares(0) > 1)
+      for (int k = 0; k < surface.facing.side_1.n_shares(0); ++k)
+        in_equations.insert(surface.facing.side_1.share(0, k).node);
+  if (!in_equations.empty())
+    for (const Facet& facet : boundary_facets(mesh))
+      if (std::any_of(facet.nodes().begin(), facet.nodes().end(),
+                      [&](int node) { return in_equations.contains(node); }))
+        joined.insert(facet_key(facet));
   for (const Surface& surface : surfaces)
     if (surface.part_1 == part && surface.part_2 == part)
       for (const std::vector<Facet>* facets : {&surface.facing.facets_1, &surface.facing.facets_2})
@@ -112,7 +123,8 @@ void refuse_seams(const Problem& problem, const std::vector<Surface>& surfaces) 
   std::vector<std::string> texts(parts.size());
   parallel_for(static_cast<int>(parts.size()), [&](int k) {
     const Substructure& part = *problem.substructures[static_cast<size_t>(parts[static_cast<size_t>(k)])];
-    texts[static_cast<size_t>(k)] = text_of_seam(part, joined_to_itself(surfaces, parts[static_cast<size_t>(k)]));
+    texts[static_cast<size_t>(k)] =
+        text_of_seam(part, joined_to_itself(*part.mesh, surfaces, parts[static_cast<size_t>(k)]));
   });
   for (size_t k = 0; k < parts.size(); ++k) {
     if (texts[k].empty()) continue;

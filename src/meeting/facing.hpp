@@ -1,6 +1,7 @@
 // How two faces meet: points, what moves with them on either side, normals and areas.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "meeting/side_trace.hpp"
@@ -30,7 +31,13 @@ struct Facing {
   int carrier = 0;
   double size_ratio = 1.0, sagitta = 0.0;
   int n_merged = 0;
+  // Of points that no facets give, where a deck joins sums of motions: their axes, and along which of them they act.
+  // Else empty: N and two tangents, and all of them.
+  std::vector<Mat3> frames;
+  std::vector<std::array<bool, 3>> directions;
 
+  bool is_of_sums() const { return !frames.empty(); }
+  bool acts_along(int i, int d) const { return directions.empty() || directions[static_cast<size_t>(i)][d]; }
   int n_points() const { return static_cast<int>(areas.size()); }
   bool matches() const { return carrier == 0; }
 };

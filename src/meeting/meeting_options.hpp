@@ -6,6 +6,9 @@ namespace dygita {
 // Which side carries the points of faces that do not match: as the faces lie on each other, or as declared.
 enum class Carrier { automatic, first, second };
 
+// What counts in the mean motion of a face: the area behind its nodes, or each node alike.
+enum class MeanBy { area, nodes };
+
 struct MeetingOptions {
   double within = 0.0;  // m, how far apart faces may be that touch, beside their sagittas
   Carrier points = Carrier::automatic;

@@ -6,6 +6,7 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "law/law.hpp"
+#include "mesh/face_nodes.hpp"
 
 namespace dygita {
 
@@ -53,7 +54,7 @@ bool has_dynamic_step(const Problem& problem) {
 
 bool is_wall(const Target& target) {
   const SupportPtr* support = std::get_if<SupportPtr>(&target);
-  return support && (*support)->kind->law();
+  return support && (*support)->kind->law() && (*support)->kind->sums() == Directions::none;
 }
 
 std::vector<SupportPtr> all_supports(const Problem& problem) {
@@ -79,6 +80,19 @@ std::vector<int> nodes_at(const FaceOrRegion& place) {
   std::vector<int> nodes = std::get<Region>(place).nodes;
   std::sort(nodes.begin(), nodes.end());
   return nodes;
+}
+
+std::vector<std::pair<int, double>> mean_of(const FaceOrRegion& place) {
+  std::vector<std::pair<int, double>> shares;
+  if (const Face* face = std::get_if<Face>(&place)) {
+    const FaceNodes nodes = face_nodes(*face->part->mesh, face->facets());
+    for (size_t i = 0; i < nodes.nodes.size(); ++i)
+      shares.emplace_back(nodes.nodes[i], nodes.weights[static_cast<Eigen::Index>(i)] / nodes.weights.sum());
+    return shares;
+  }
+  const std::vector<int> nodes = nodes_at(place);
+  for (const int node : nodes) shares.emplace_back(node, 1.0 / static_cast<double>(nodes.size()));
+  return shares;
 }
 
 Target target_of(const FaceOrRegion& place) {

@@ -80,6 +80,8 @@ void place_exists(const Problem& problem, const Origin& origin, const std::strin
 const Substructure& part_of(const FaceOrRegion& place);
 std::string label_of(const FaceOrRegion& place);
 std::vector<int> nodes_at(const FaceOrRegion& place);  // of the part's mesh, increasing
+// Nodes and shares, of sum 1, whose motion is the place's mean one: by area on a face, alike in a region.
+std::vector<std::pair<int, double>> mean_of(const FaceOrRegion& place);
 
 // On one part, every node of one also a node of the other.
 bool one_in_other(const FaceOrRegion& a, const FaceOrRegion& b);

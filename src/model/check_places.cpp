@@ -35,6 +35,20 @@ void supports_do_not_coincide(const Problem& problem, const Step& step, const Su
   }
 }
 
+// Its places would have to jump to where the sum is zero.
+void equations_are_there_from_the_start(const Problem& problem) {
+  for (size_t i = 1; i < problem.steps.size(); ++i) {
+    const std::vector<SupportPtr>&before = supports_of(problem, *problem.steps[i - 1]),
+          &now = supports_of(problem, *problem.steps[i]);
+    for (const SupportPtr& support : now)
+      if (support->kind->sums() != Directions::none && index_of(before, support.get()) < 0)
+        fail(problem, support->origin,
+             "step '" + problem.steps[i]->name + "': " + describe(*support) + " is not in step '" +
+                 problem.steps[i - 1]->name + "' before it",
+             "an equation can end with a step, not begin with one that is not the first");
+  }
+}
+
 }  // namespace
 
 void interfaces(const Problem& problem) {
@@ -50,6 +64,9 @@ void interfaces(const Problem& problem) {
       fail(problem, interface->origin, who + " joins " + interface->side_1.label() + " with itself",
            "'between' requires two faces that touch");
     }
+    if (interface->means && is_explicit)
+      fail(problem, interface->origin, "solver.explicit does not take " + who + ", which joins mean motions",
+           "use solver.latin or solver.monolithic");
     const ExplicitForm form = interface->law->explicit_form();
     if (form.is_none() && is_explicit)
       fail(problem, interface->origin, "solver.explicit does not take " + who + ": " + form.refusal,
@@ -58,11 +75,20 @@ void interfaces(const Problem& problem) {
 }
 
 void supports(const Problem& problem) {
-  for (const SupportPtr& support : all_supports(problem)) support_is_on_what_it_can_be(problem, *support);
+  for (const SupportPtr& support : all_supports(problem)) {
+    support_is_on_what_it_can_be(problem, *support);
+    if (support->kind->sums() != Directions::none && problem.explicit_dynamics && has_dynamic_step(problem))
+      fail(problem, support->origin, "solver.explicit does not take " + describe(*support),
+           "use solver.latin or solver.monolithic");
+  }
+  equations_are_there_from_the_start(problem);
   for (const StepPtr& step : problem.steps) {
     const std::vector<SupportPtr>& in_force = supports_of(problem, *step);
     for (size_t i = 0; i < in_force.size(); ++i) {
-      for (size_t j = 0; j < i; ++j) supports_do_not_coincide(problem, *step, *in_force[j], *in_force[i]);
+      if (in_force[i]->kind->sums() != Directions::none) continue;  // what else holds its places is another matter
+      for (size_t j = 0; j < i; ++j)
+        if (in_force[j]->kind->sums() == Directions::none)
+          supports_do_not_coincide(problem, *step, *in_force[j], *in_force[i]);
     }
   }
 }

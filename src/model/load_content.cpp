@@ -112,6 +112,7 @@ bool flies_towards_something(const Problem& problem, const Step& step) {
   for (const SupportPtr& support : supports_of(problem, step))
     for (const FaceOrRegion& on : support->on) {
       const LawPtr law = support->kind->law();
+      if (support->kind->sums() != Directions::none) continue;
       const bool is_away = law && law->initial().gap > 0.0;
       (is_away ? has_gap : stays).insert(group_of(*std::visit([](const auto& place) { return place.part; }, on)));
     }

@@ -69,6 +69,7 @@ struct Interface : Named {
   bool is_gap_drawn = false;         // taken from round surfaces without a word in the deck
   // m, added to the gap of the places, by the nodes of either side; none: nothing is.
   std::array<std::unordered_map<int, double>, 2> form;
+  std::optional<MeanBy> means;  // joins the mean motions of its faces, which deform freely; none: point by point
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 
@@ -77,6 +78,7 @@ using FaceOrRegion = std::variant<Face, Region>;
 struct Support : Named {
   SupportKindPtr kind;
   std::vector<FaceOrRegion> on;
+  std::vector<double> factors;  // of an equation, one a place; else none
 };
 using SupportPtr = std::shared_ptr<const Support>;
 

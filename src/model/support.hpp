@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ inline constexpr Directions Directions::none{};
 inline constexpr Directions Directions::normal{.along_normals = true};
 inline constexpr Directions Directions::all{.axes = {true, true, true}};
 
+struct SpringAlong {
+  double stiffness = 0.0, damping = 0.0;  // N/m, N s/m
+};
+
 class SupportKind {
  public:
   virtual ~SupportKind() = default;
@@ -40,11 +45,18 @@ class SupportKind {
   virtual bool absorbs() const = 0;
   // What acts between it, as side 2, and the faces that it is on; null: nothing of the kind.
   virtual LawPtr law() const = 0;
+  // Axes along which a weighted sum of the motions of its places is held; none: each place is held by itself.
+  virtual Directions sums() const = 0;
+  // What holds a sum along an axis (0, 1, 2); nothing: it is zero.
+  virtual std::optional<SpringAlong> spring(int axis) const = 0;
 
   // Can it be shaken? Then it holds something where there is time.
   bool can_be_shaken() const { return holds(false) != Directions::none; }
 };
 using SupportKindPtr = std::shared_ptr<const SupportKind>;
+
+// The law along the normal of a point of this area (m^2).
+LawPtr law_of_spring(const SpringAlong& spring, double area);
 
 // A kind of the table: its word, the numbers that it takes, all of them, and how it is made of them.
 struct SupportEntry {

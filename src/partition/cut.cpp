@@ -26,6 +26,12 @@ std::vector<std::vector<int>> together(const std::vector<Surface>* surfaces, int
   for (size_t s = 0; surfaces && s < surfaces->size(); ++s) {
     const Surface& surface = (*surfaces)[s];
     if (surface.facing.matches()) continue;
+    if (surface.wall && surface.facing.is_of_sums()) {
+      for (const auto& [own, trace] :
+           {std::pair{surface.part_1, &surface.facing.side_1}, std::pair{surface.part_2, &surface.facing.side_2}})
+        if (own == part) sets.push_back(trace->on_its_nodes().second);
+      continue;
+    }
     if (surface.part_1 == part) sets.push_back(nodes_of(surface.facing.facets_1));
     if (surface.part_2 == part) sets.push_back(nodes_of(surface.facing.facets_2));
   }

@@ -55,8 +55,10 @@ void count_contact(const Tangent& tangent, LinearAssembly& assembly) {
 void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, LinearAssembly& assembly) {
   const Surface& surface = (*instant.model.surfaces)[s];
   const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
-  const Mat3 frame = frame_of(surface.facing.normals.col(i));
+  const Mat3 frame = surface.facing.is_of_sums() ? surface.facing.frames[static_cast<size_t>(i)]
+                                                 : frame_of(surface.facing.normals.col(i));
   for (int d = 0; d < 3; ++d) {
+    if (!surface.facing.acts_along(i, d)) continue;
     if (!tangent.holds[d] && tangent.damping[d] == 0.0 && tangent.stiffness[d] == 0.0) continue;
     const double area = surface.facing.areas[i];
     SpreadSum sum{{}, tangent.holds[d], area * tangent.damping[d], area * tangent.stiffness[d]};

@@ -26,7 +26,8 @@ CarriedMotion::CarriedMotion(const Instant& start) {
     held += resisted * resisted.transpose();
   }
   for (const Surface& surface : *model.surfaces)
-    if (surface.wall && takes_part(*model.problem, *model.step, surface))
+    if (surface.wall && surface.is_on_ground && !surface.facing.is_of_sums() &&
+        takes_part(*model.problem, *model.step, surface))
       held += surface.facing.normals * surface.facing.normals.transpose();
   for (const SupportPtr& support : supports_of(*model.problem, *model.step))
     if (support->kind->absorbs()) held += Mat3::Identity();

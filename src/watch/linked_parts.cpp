@@ -32,7 +32,9 @@ void LinkedParts::accept(const Instant& instant) {
 
 void LinkedParts::find_forces(const Instant& instant) {
   const std::vector<Surface>& surfaces = *instant.model.surfaces;
-  const auto other = [&](const Surface& surface) { return surface.part_2 < 0 ? ground_ : surface.part_2; };
+  const auto other = [&](const Surface& surface) {
+    return surface.part_2 >= 0 ? surface.part_2 : surface.is_on_ground ? ground_ : surface.part_1;
+  };
   std::vector<int> open;
   std::vector<double> forces;  // N, sums of magnitudes
   for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {

@@ -167,6 +167,9 @@ std::string line_of(const Instant& instant, const RigidImbalance& imbalance) {
 std::vector<std::string> overloaded_joints(const Instant& instant) {
   const Problem& problem = *instant.model.problem;
   const int n = static_cast<int>(problem.substructures.size()), ground = n;
+  const auto other = [&](const Surface& surface) {
+    return surface.part_2 >= 0 ? surface.part_2 : surface.is_on_ground ? ground : surface.part_1;
+  };
   Groups groups(n + 1);
   std::vector<LimitJoint> limits;
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
@@ -177,14 +180,13 @@ std::vector<std::string> overloaded_joints(const Instant& instant) {
     else if (const auto joint = at_limit(surface, instant.surface(s)))
       limits.push_back(*joint);
     else
-      groups.join(surface.part_1, surface.part_2 < 0 ? ground : surface.part_2);
+      groups.join(surface.part_1, other(surface));
   }
   std::vector<Group> all(n + 1);
   for (int part = 0; part < n; ++part) add_part(instant, part, all[groups.of(part)]);
   all[groups.of(ground)].is_grounded = true;
   for (const LimitJoint& joint : limits) {
-    const int a = groups.of(joint.surface->part_1),
-              b = groups.of(joint.surface->part_2 < 0 ? ground : joint.surface->part_2);
+    const int a = groups.of(joint.surface->part_1), b = groups.of(other(*joint.surface));
     if (a == b) continue;
     all[a].joints.push_back(joint);
     all[b].joints.push_back(joint);

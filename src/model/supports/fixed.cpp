@@ -13,6 +13,8 @@ class Fixed final : public SupportKind {
   Directions claims() const override { return Directions::all; }
   bool absorbs() const override { return false; }
   LawPtr law() const override { return nullptr; }
+  Directions sums() const override { return Directions::none; }
+  std::optional<SpringAlong> spring(int) const override { return std::nullopt; }
 };
 
 }  // namespace

@@ -16,6 +16,8 @@ class HeldAlongAxes final : public SupportKind {
   Directions claims() const override { return held_; }
   bool absorbs() const override { return false; }
   LawPtr law() const override { return nullptr; }
+  Directions sums() const override { return Directions::none; }
+  std::optional<SpringAlong> spring(int) const override { return std::nullopt; }
 
  private:
   Directions held_;

@@ -16,6 +16,8 @@ class Wall final : public SupportKind {
   Directions claims() const override { return Directions::normal; }
   bool absorbs() const override { return false; }
   LawPtr law() const override { return law_; }
+  Directions sums() const override { return Directions::none; }
+  std::optional<SpringAlong> spring(int) const override { return std::nullopt; }
 
  private:
   LawPtr law_;
