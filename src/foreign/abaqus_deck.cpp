@@ -28,6 +28,9 @@ class AbaqusDeck : public ImportedDeck {
     write_parts(needs_density());
     write_welds();
     for (const AbaqusJoint& joint : analysis_.joints) write_joint(joint);
+    for (const AbaqusEquation& equation : analysis_.equations) write_equation(equation);
+    for (const FileSpring& spring : analysis_.springs)
+      if (const std::string name = put_spring(spring, equations_.size() + 1); !name.empty()) equations_.push_back(name);
     std::vector<std::string> supports, loads;
     add_before(supports, loads);
     const std::vector<std::string> supports_before = supports;
@@ -83,6 +86,30 @@ class AbaqusDeck : public ImportedDeck {
     has_contact_ = has_contact_ || !joint.is_tie;
   }
 
+  void write_equation(const AbaqusEquation& equation) {
+    std::vector<std::string> on, factors;
+    std::string along;
+    int part = -1;
+    for (const AbaqusEquation::Term& term : equation.terms) {
+      part = part_with(term.place, part);
+      if (part < 0)
+        return leave(fmt::format("{}: *EQUATION: a node of it is on no part, or nodes are on several", equation.where));
+      on.push_back(fmt::format("{}:region {}", part_names_[static_cast<size_t>(part)], lua_quoted(term.place)));
+      factors.push_back(lua_number(term.factor));
+    }
+    for (size_t d = 0; d < 3; ++d)
+      if (equation.along[d]) along += fmt::format(", {} = true", "xyz"[d]);
+    const std::string name = names_.of("equation", std::to_string(equations_.size() + 1));
+    put("local {} = support.equation{{ name = {}, on = {{ {} }}, factors = {{ {} }}{} }}  -- {}", name,
+        lua_quoted(name), comma_list(on), comma_list(factors), along, equation.where);
+    equations_.push_back(name);
+  }
+
+  std::vector<std::string> with_equations(std::vector<std::string> supports) const {
+    supports.insert(supports.end(), equations_.begin(), equations_.end());
+    return supports;
+  }
+
   std::string value_of(double value, const char* unit, const FileAction& action) override {
     const std::string number = ImportedDeck::value_of(value, unit, action);
     if (action.amplitude.empty()) return number;
@@ -122,8 +149,10 @@ class AbaqusDeck : public ImportedDeck {
     for (FileAction& action : actions)
       if (action.kind == Kind::held && std::any_of(before.begin(), before.end(), [&](const Acting& one) {
             return one.action.kind == Kind::moved && meet(one.action, action);
-          }))
+          })) {
+        if (action.stays) leave(fmt::format("{}: FIXED of nodes that are moved", action.where));
         action.kind = Kind::moved;  // back to where it was
+      }
     for (const Acting& one : before)
       if (!one.action.amplitude.empty())
         leave(fmt::format("{}: its amplitude goes on into a later step", one.action.where));
@@ -278,9 +307,9 @@ class AbaqusDeck : public ImportedDeck {
     const std::string name = names_.of("step", std::to_string(steps_.size() + 1));
     put("local {} = step.{}{{ name = {}{}, loads = {{ {} }}, supports = {{ {} }}{} }}  -- {}", name,
         is_dynamic ? "dynamic" : "static", lua_quoted(name), steps_.empty() ? "" : ", after = " + steps_.back(),
-        comma_list(loads), comma_list(supports), how, step.where);
+        comma_list(loads), comma_list(with_equations(supports)), how, step.where);
     steps_.push_back(name);
-    for (const std::string& support : supports)
+    for (const std::string& support : with_equations(supports))
       if (std::find(all_supports_.begin(), all_supports_.end(), support) == all_supports_.end())
         all_supports_.push_back(support);
   }
@@ -291,15 +320,16 @@ class AbaqusDeck : public ImportedDeck {
       leave(fmt::format("{}: stresses of the loads before have no stiffness in the model", step.where));
     const std::string rest = names_.of("rest", std::to_string(modes_.size() + 1));
     put("local {} = step.static{{ name = {}, supports = {{ {} }} }}  -- without loads", rest, lua_quoted(rest),
-        comma_list(supports));
+        comma_list(with_equations(supports)));
     const int n = step.numbers.empty() ? 10 : static_cast<int>(std::clamp(step.numbers[0], 1.0, 2000.0));
-    modes_.push_back({rest, fmt::format("n = {}", n), supports});
+    modes_.push_back({rest, fmt::format("n = {}", n), with_equations(supports)});
   }
 
   void write_problems(const std::vector<std::string>& supports_before) {
     const std::string name = deck_name_of(std::filesystem::path(options_.file).stem().string());
     if (!steps_.empty())
-      write_problem(name, all_supports_.empty() ? supports_before : all_supports_, steps_, "output.vtk{ frames = 1 }");
+      write_problem(name, all_supports_.empty() ? with_equations(supports_before) : all_supports_, steps_,
+                    "output.vtk{ frames = 1 }");
     for (size_t i = 0; i < modes_.size(); ++i) {
       const std::string own = modes_.size() + steps_.size() == 1
                                   ? name
@@ -320,7 +350,7 @@ class AbaqusDeck : public ImportedDeck {
 
   AbaqusModel& read_;
   AbaqusAnalysis analysis_;
-  std::vector<std::string> steps_, all_supports_;
+  std::vector<std::string> steps_, all_supports_, equations_;
   std::vector<Modes> modes_;
   std::vector<Acting> acting_;  // loads of files of the steps so far
   std::string heated_;          // the step that has temperatures

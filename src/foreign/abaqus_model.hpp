@@ -12,6 +12,8 @@
 
 namespace dygita {
 
+struct AbaqusCell;
+
 struct AbaqusSet {
   std::string name;        // as the file writes it first
   std::vector<int> items;  // nodes, or cells, of the model; each once

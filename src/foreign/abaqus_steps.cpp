@@ -76,11 +76,14 @@ const std::set<std::string> silent = {"NODE",
 
 // Options that are read, or that say nothing of the motion.
 const std::map<std::string, std::set<std::string>> options_of = {
-    {"BOUNDARY", {"OP", "AMPLITUDE", "TYPE"}},
+    {"BOUNDARY", {"OP", "AMPLITUDE", "TYPE", "FIXED"}},
     {"CLOAD", {"OP", "AMPLITUDE"}},
     {"DLOAD", {"OP", "AMPLITUDE"}},
     {"DSLOAD", {"OP", "AMPLITUDE"}},
     {"TEMPERATURE", {}},
+    {"EQUATION", {}},
+    {"MPC", {}},
+    {"SPRING", {"ELSET"}},
     {"AMPLITUDE", {"NAME", "TIME", "VALUE", "DEFINITION"}},
     {"STATIC", {"DIRECT", "SOLVER"}},
     {"DYNAMIC", {"DIRECT", "SOLVER", "EXPLICIT", "ALPHA"}},
@@ -98,7 +101,7 @@ constexpr double rough = 1000;  // coefficient of friction: the largest of a dec
 
 class AnalysisReader {
  public:
-  explicit AnalysisReader(AbaqusModel& model) : model_(model), file_(model.file()) {}
+  explicit AnalysisReader(AbaqusModel& model) : model_(model), file_(model.file()), constraints_(model) {}
 
   AbaqusAnalysis read() {
     for (const PlacedCard& placed : model_.cards()) {
@@ -108,6 +111,8 @@ class AnalysisReader {
         analysis_.untranslated.emplace_back(error.what());
       }
     }
+    constraints_.finish(analysis_.springs, analysis_.untranslated);
+    analysis_.equations = std::move(constraints_.equations);
     return std::move(analysis_);
   }
 
@@ -129,6 +134,10 @@ class AnalysisReader {
       return read_temperatures(placed, analysis_.temperatures);
     if (word == "TEMPERATURE") return read_step_temperatures(placed);
     if (word == "TRANSFORM") return note_transform(placed);
+    if (word == "EQUATION" || word == "MPC" || word == "SPRING") {
+      if (!analysis_.steps.empty()) return leave(card, "in a step");
+      return constraints_.read(placed, turned_);
+    }
     if (!silent.contains(word)) leave(card, "a deck has no word for it");
   }
 
@@ -174,16 +183,6 @@ class AnalysisReader {
     analysis_.steps.back().*drops = true;
   }
 
-  // A set by its own name, or a new one for what a card lists by numbers.
-  std::string place_of(const std::string& prefix, const DataLine& line, std::vector<int> nodes) {
-    const std::string file = line.file == 0 ? "" : fmt::format("{}.", line.file);
-    std::string name = fmt::format("{} {}{}", prefix, file, line.line);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    model_.model().node_sets.push_back({name, std::move(nodes)});
-    return name;
-  }
-
   struct Listed {
     DataLine line;
     std::string set;
@@ -194,7 +193,8 @@ class AnalysisReader {
 
   void note(Sayings& sayings, const PlacedCard& placed, const DataLine& line, std::string_view field,
             const std::array<double, 6>& says) {
-    const std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), field);
+    std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), field);
+    if (placed.card->keyword == "BOUNDARY" && analysis_.steps.empty() && constraints_.hold_ends(says, nodes)) return;
     const std::string set = is_whole(field) || !placed.scope->instance.empty() ? "" : std::string(field);
     Listed& listed = sayings.try_emplace({set, says}, Listed{line, set, {}}).first->second;
     listed.nodes.insert(listed.nodes.end(), nodes.begin(), nodes.end());
@@ -210,6 +210,7 @@ class AnalysisReader {
       const auto& says = key.second;
       FileAction action{kind, "", {says[3], says[4], says[5]}, {says[0] != 0, says[1] != 0, says[2] != 0}, "", "", 0};
       if (kind == FileAction::Kind::held && !action.value.isZero(0.0)) action.kind = FileAction::Kind::moved;
+      action.stays = placed.card->has("FIXED");
       action.where = file_.where(listed.line.file, listed.line.line);
       action.amplitude = placed.card->option("AMPLITUDE");
       const bool is_whole_node = action.kind == FileAction::Kind::held && action.along == Mask{true, true, true};
@@ -217,7 +218,7 @@ class AnalysisReader {
         if (turned_.contains(node) && !is_whole_node)
           throw InputError(fmt::format("{}: {}: in axes of *TRANSFORM", action.where, placed.card->written));
       action.place = listed.set.empty() ? "" : name_of_set(placed, listed.set);
-      if (action.place.empty()) action.place = place_of(prefix, listed.line, listed.nodes);
+      if (action.place.empty()) action.place = place_of(model_.model(), prefix, listed.line, listed.nodes);
       std::set<int> once(listed.nodes.begin(), listed.nodes.end());
       action.n_nodes = static_cast<int>(once.size());
       actions().push_back(action);
@@ -416,6 +417,7 @@ class AnalysisReader {
   const CardFile& file_;
   AbaqusAnalysis analysis_;
   std::set<int> turned_;  // nodes in axes of *TRANSFORM
+  AbaqusConstraints constraints_;
 };
 
 }  // namespace

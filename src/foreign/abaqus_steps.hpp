@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "foreign/abaqus_constraints.hpp"
 #include "foreign/abaqus_model.hpp"
 #include "foreign/file_actions.hpp"
 
@@ -32,6 +33,8 @@ struct AbaqusAnalysis {
   std::vector<AbaqusStep> steps;
   std::map<int, double> temperatures;  // of nodes of the model, K, without stress
   std::vector<AbaqusJoint> joints;
+  std::vector<AbaqusEquation> equations;
+  std::vector<FileSpring> springs;
   std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals
   std::vector<std::string> remarks;                       // what is said otherwise
   std::vector<std::string> untranslated;                  // "plate.inp:45: *SPRING: ..."

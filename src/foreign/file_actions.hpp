@@ -20,8 +20,27 @@ struct FileAction {
   double speed = 0.0;           // rad in the unit of time, of a spin
   Vec3 through = Vec3::Zero();  // the same, a point of its axis
 
+  bool stays = false;  // held where it has come to
+
   bool is_on_faces() const { return kind == Kind::pressure || kind == Kind::traction; }
   bool is_everywhere() const { return kind == Kind::gravity || kind == Kind::spin; }
+};
+
+// A mass with its inertia behind nodes, which it moves rigidly or whose mean it moves with.
+struct FileBody {
+  std::string place;  // a set of nodes of the model, which has a face
+  double mass;
+  Mat3 inertia;  // about its centre of mass
+  Vec3 at;       // that
+  bool is_mean;  // of the nodes alike
+  std::string where;
+};
+
+// Springs along the axes of the file between the means of two sets of nodes, or of one and the ground.
+struct FileSpring {
+  std::string one, other;  // other: empty, the ground
+  Vec3 stiffness, damping;
+  std::string where;
 };
 
 }  // namespace dygita

@@ -135,6 +135,44 @@ std::vector<std::string> ImportedDeck::places(const std::string& given, bool is_
   return found;
 }
 
+std::string ImportedDeck::put_spring(const FileSpring& spring, size_t number) {
+  std::vector<std::string> on;
+  for (const std::string& place : {spring.one, spring.other}) {
+    if (place.empty()) continue;
+    const int part = part_with(place);
+    if (part < 0) {
+      leave(fmt::format("{}: the nodes of '{}' are on several parts, or none", spring.where, place));
+      return "";
+    }
+    on.push_back(fmt::format("{}:region {}", part_names_[static_cast<size_t>(part)], lua_quoted(place)));
+  }
+  std::string along;
+  for (int d = 0; d < 3; ++d) {
+    if (spring.stiffness[d] == 0.0 && spring.damping[d] != 0.0)
+      leave(fmt::format("{}: a damper without a spring", spring.where));
+    if (spring.stiffness[d] == 0.0) continue;
+    along += fmt::format(", {} = {}*force/length", axis_names[d], lua_number(spring.stiffness[d]));
+    if (spring.damping[d] != 0.0)
+      along += fmt::format(", {}_damping = {}*force*time/length", axis_names[d], lua_number(spring.damping[d]));
+  }
+  if (along.empty()) return "";
+  const std::string name = names_.of("spring", std::to_string(number));
+  put("local {} = support.spring{{ name = {}, on = {{ {} }}{} }}  -- {}", name, lua_quoted(name), comma_list(on), along,
+      spring.where);
+  return name;
+}
+
+int ImportedDeck::part_with(const std::string& place, int preferred) const {
+  const size_t n = nodes_in(place).size();
+  const auto has_all = [&](const ForeignPart& part) {
+    const auto found = part.regions.find(place);
+    return found != part.regions.end() && found->second.size() == n;
+  };
+  if (preferred >= 0 && has_all(parts_[static_cast<size_t>(preferred)])) return preferred;
+  const auto found = std::find_if(parts_.begin(), parts_.end(), has_all);
+  return found == parts_.end() ? -1 : static_cast<int>(found - parts_.begin());
+}
+
 std::string ImportedDeck::known_face(const std::string& name) const {
   for (const ForeignFace& surface : model_.surfaces)
     if (in_capitals(surface.name) == in_capitals(name)) return surface.name;

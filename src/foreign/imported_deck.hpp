@@ -45,6 +45,8 @@ class ImportedDeck {
   void write_parts(bool needs_density);
   // Parts that share the nodes of facets in the file are one body there.
   void write_welds();
+  // Its name in the deck; empty where no deck says it.
+  std::string put_spring(const FileSpring& spring, size_t number);
   void add(const std::vector<FileAction>& actions, std::vector<std::string>& supports, std::vector<std::string>& loads);
   void write_problem(const std::string& name, const std::vector<std::string>& supports,
                      const std::vector<std::string>& steps, const std::string& output);
@@ -54,6 +56,8 @@ class ImportedDeck {
 
   // "part_a:face "TOP"" of each part that has it; of "I1.TOP" those of the instance I1.
   std::vector<std::string> places(const std::string& given, bool is_face) const;
+  // The part that has all nodes of a set, `preferred` if it is one; -1: none.
+  int part_with(const std::string& place, int preferred = -1) const;
   std::string known_face(const std::string& name) const;
   std::vector<int> nodes_in(const std::string& place) const;  // of a set
 

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/names.hpp"
 #include "foreign/cards.hpp"
+#include "foreign/nastran_bodies.hpp"
 #include "foreign/nastran_loads.hpp"
 #include "foreign/nastran_spiders.hpp"
 #include "foreign/nastran_supports.hpp"
@@ -53,6 +54,7 @@ class CaseReader {
       one.acting = acting[one.loads];
       if (analysis_.kind == NastranAnalysis::Kind::modes) attempt([&] { one.modes = modes_of(one); });
     }
+    read_bodies();
     remark_unchosen();
     list_unsaid();
     return std::move(analysis_);
@@ -145,6 +147,21 @@ class CaseReader {
     throw InputError(fmt::format("{}: METHOD {}: there is no EIGRL or EIGR of that number", one.where, one.method));
   }
 
+  void read_bodies() {
+    NastranBodies bodies(model_, spiders_, said_);
+    for (NastranSpider& spider : spiders_)
+      if (!spider.is_said) attempt([&] { bodies.add_body(spider); });
+    for (const BulkCard& card : file_.cards())
+      if (card.name == "CBUSH" || card.name == "CELAS1" || card.name == "CELAS2")
+        attempt([&] {
+          said_.insert(&card);  // or told
+          bodies.add_spring(card);
+        });
+    analysis_.bodies = std::move(bodies.bodies);
+    analysis_.springs = std::move(bodies.springs);
+    analysis_.remarks.insert(analysis_.remarks.end(), bodies.remarks.begin(), bodies.remarks.end());
+  }
+
   // Sets of supports and loads that no case asks for.
   void remark_unchosen() {
     std::set<std::pair<bool, long>> chosen;
@@ -179,8 +196,8 @@ class CaseReader {
   void list_unsaid() {
     std::map<std::string_view, std::vector<std::string>> others;
     for (const BulkCard& card : file_.cards())
-      if (!said_or_silent.contains(card.name) && !model_.is_skipped(card.name) && !is_of_places(card.name) &&
-          card.name != "PARAM")
+      if (!said_or_silent.contains(card.name) && !said_.contains(&card) && !model_.is_skipped(card.name) &&
+          !is_of_places(card.name) && card.name != "PARAM")
         others[card.name].push_back(file_.where(card));
     for (const auto& [name, places] : others) {
       const std::string lines = few_of(places);
@@ -200,6 +217,7 @@ class CaseReader {
   const BulkFile& file_;
   NastranAnalysis analysis_;
   std::vector<NastranSpider> spiders_;
+  std::set<const BulkCard*> said_;
 };
 
 }  // namespace

@@ -21,6 +21,8 @@ struct NastranAnalysis {
   enum class Kind { statics, modes, other };
   Kind kind = Kind::statics;
   std::vector<NastranCase> cases;
+  std::vector<FileBody> bodies;           // of each case
+  std::vector<FileSpring> springs;        // the same
   std::vector<std::string> remarks;       // what is said otherwise
   std::vector<std::string> untranslated;  // "joint.bdf:45: CELAS2: ..."
 };

@@ -1,6 +1,12 @@
 // Meshes of other programs from end to end: every shape of cell under a uniform pressure, by the names of the file.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include "decks/engine.hpp"
 #include "foreign/abaqus_blocks.hpp"
 #include "foreign/abaqus_deck.hpp"
@@ -151,6 +157,60 @@ TEST(WrittenElsewhere, imported_decks_stop_where_something_is_not_translated) {
   EXPECT_THROW(run_text(deck), InputError);
   const size_t stop = deck.find("error(");
   EXPECT_EQ(run_text(deck.substr(0, stop) + deck.substr(deck.find('\n', stop))).size(), 1u);
+}
+
+// Two frequencies (Hz) of a rigid body on springs below: its sway and its rocking. stiffness: of all springs, aside and
+// upright (N/m), a: their arm; mass, its first and second moment (kg, kg m, kg m^2) about the plane of the springs.
+std::array<double, 2> sway_and_rocking(double aside, double upright, double a, const Vec3& mass) {
+  Eigen::Matrix2d k, m;
+  k << aside, 0, 0, upright * a * a;
+  m << mass[0], -mass[1], -mass[1], mass[2];
+  const Eigen::Vector2d squares = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(k, m).eigenvalues();
+  return {std::sqrt(squares[0]) / (2 * std::numbers::pi), std::sqrt(squares[1]) / (2 * std::numbers::pi)};
+}
+
+// A block of 40 x 40 x 10 mm on four CBUSH at its corners, a mass 35 mm above it on an RBE2 or an RBE3: nodes in a
+// turned frame, names of HyperMesh, stiffness along the axes of that frame, the mass off its node.
+TEST(WrittenElsewhere, nastran_masses_on_bushings_have_the_frequencies_by_hand) {
+  std::string mesh =
+      "SOL 103\nCEND\nMETHOD = 4\nBEGIN BULK\n$HMNAME PROP 1\"plate\" 4\n$HMNAME MAT 1\"steel\" \"MAT1\"\n"
+      "CORD2R,5,,100.,50.,0.,100.,50.,1.\n,100.,51.,0.\nPSOLID,1,1\nMAT1,1,210000.,,.3,7.85-9\nEIGRL,4,,,6\n";
+  const auto node = [](int i, int j, int k) { return std::to_string(1 + i + 3 * j + 9 * k); };
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) mesh += fmt::format("GRID,{},5,{}.,{}.,{}.\n", node(i, j, k), 20 * i, 20 * j, 10 * k);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i)
+      mesh += fmt::format("CHEXA,{},1,{},{},{},{},{},{}\n,{},{}\n", 1 + i + 2 * j, node(i, j, 0), node(i + 1, j, 0),
+                          node(i + 1, j + 1, 0), node(i, j + 1, 0), node(i, j, 1), node(i + 1, j, 1),
+                          node(i + 1, j + 1, 1), node(i, j + 1, 1));
+  mesh += "PBUSH,7,K,500.,600.,1000.\n";
+  for (const auto& [i, j] : {std::pair(0, 0), {2, 0}, {0, 2}, {2, 2}})
+    mesh += fmt::format("CBUSH,{},7,{},,,,,5\n", 20 + i + 3 * j, node(i, j, 0));
+  mesh += "GRID,50,5,20.,20.,40.\nCONM2,51,50,,2.-3,0.,0.,5.\n,2.,,3.,,,4.\n";
+  std::string top;
+  for (int i = 10; i <= 18; ++i) top += fmt::format(",{}{}", i, i == 13 || i == 16 ? "\n" : "");
+  // kg, m: the block's own moments about its middle, and those of the mass.
+  const double block = 7.85e3 * 16e-6, mass = 2.0, along = block * (40 * 40 + 10 * 10) * 1e-6 / 12;
+  const auto moments = [&](double own) {
+    return Vec3(block + mass, block * 5e-3 + mass * 45e-3, block * 25e-6 + along + mass * 2025e-6 + own);
+  };
+  // System 5 has its axes along y, -x and z.
+  const auto [y_low, y_high] = sway_and_rocking(4 * 500e3, 4 * 1000e3, 20e-3, moments(2e-3));
+  const auto [x_low, x_high] = sway_and_rocking(4 * 600e3, 4 * 1000e3, 20e-3, moments(3e-3));
+  const double twist = std::sqrt(4 * (500e3 + 600e3) * 400e-6 / (4e-3 + block * 3200e-6 / 12)) / (2 * std::numbers::pi);
+  std::vector<double> expected = {y_low,  y_high, x_low,
+                                  x_high, twist,  std::sqrt(4 * 1000e3 / (block + mass)) / (2 * std::numbers::pi)};
+  std::sort(expected.begin(), expected.end());
+  for (const std::string& spider :
+       {"RBE2,60,50,123456" + top, std::string("RBE3,60,,50,123456,1.,123,10,11\n,12,13,14,15,16,17,18")}) {
+    SCOPED_TRACE(spider);
+    const WrittenFile bdf(mesh + spider + "\nENDDATA\n", "plate.bdf");
+    const DeckRun run = run_text(imported_deck({bdf.path(), "mm t s", {}})).at(0);
+    const std::vector<double>& found = run.column("modes", "frequency");
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 5e-3 * expected[i]) << i;
+  }
 }
 
 }  // namespace

@@ -42,19 +42,63 @@ TEST(AbaqusDeck, stops_where_something_is_not_translated_and_says_the_line) {
   const std::string deck =
       imported("*SPRING, ELSET=E\n3\n10.\n*STEP, NLGEOM\n*STATIC\n*TEMPERATURE\nALL, 300.\n*END STEP\n");
   expect_in(deck, "-- NOT TRANSLATED: ");
-  expect_in(deck, ": *SPRING: a deck has no word for it\n");
+  expect_in(deck, ": *SPRING: springs between two nodes (SPRINGA) of one stiffness are read\n");
   expect_in(deck, ": NLGEOM: displacements are small in this program");
   expect_in(deck, ": *TEMPERATURE: ");
   expect_in(deck, "error(\"some lines of ");
 }
 
+// Terms of one factor are one place; equal equations along several axes are one.
+TEST(AbaqusDeck, has_equations_between_nodes) {
+  const std::string step = "*STEP\n*STATIC\n*END STEP\n";
+  const std::string deck =
+      imported("*EQUATION\n2\n7,1,1.,10,1,-1.\n2\n7,3,1.,10,3,-1.\n4\n7,2,-1.,10,2,.25,13,2,.25,\n16,2,.5\n" + step);
+  expect_in(deck, "}, factors = { -1, 1 }, x = true, z = true }");
+  expect_in(deck, "}, factors = { -1, 0.5, 0.5 }, y = true }");
+  expect_in(deck, "supports = { equation_1, equation_2 }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  for (const char* card : {"2\n7,1,1.,10,2,-1.\n", "1\n7,1,1.\n", "2\n7,4,1.,10,4,-1.\n", "2\n7,1,1.,7,1,-1.\n",
+                           "3\n7,1,1.,10,1,-1.\n", "2\n7,1,1.,X0,1,-1.\n"})
+    expect_in(imported("*EQUATION\n" + std::string(card) + step), "NOT TRANSLATED");
+}
+
+TEST(AbaqusDeck, keeps_nodes_on_a_plane_or_a_line) {
+  const std::string step = "*STEP\n*STATIC\n*END STEP\n";
+  const std::string deck = imported("*MPC\nPLANE, Z0\n" + step);
+  expect_in(deck, "z = true }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(imported("*MPC\nBEAM, 1, 2\n" + step), "NOT TRANSLATED");
+}
+
+// From the ground at node 901 to node 902, which no cell has and which is the mean of two nodes.
+TEST(AbaqusDeck, has_springs_on_the_means_that_their_ends_are) {
+  const std::string ends =
+                        "*NODE\n901,-5.,0.,0.\n902,-1.,0.,0.\n*ELEMENT, TYPE=SPRINGA, "
+                        "ELSET=S\n900,901,902\n*BOUNDARY\n901,1,3\n902,2,3\n",
+                    spring = "*SPRING, ELSET=S\n\n10.\n", step = "*STEP\n*FREQUENCY\n1\n*END STEP\n",
+                    mean = "*EQUATION\n3\n902,1,1.,7,1,-.5,10,1,-.5\n";
+  const std::string deck = imported(ends + mean + spring + step);
+  expect_in(deck, "local spring_1 = support.spring{ name = \"spring_1\", on = { part_e:region \"spring from ");
+  expect_in(deck, " }, x = 10*force/length }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(imported(ends + spring + step), "is of no cell, is not held, and follows none");
+  expect_in(imported(ends + "*EQUATION\n3\n902,1,1.,7,1,-.5,10,1,-.4\n" + spring + step), "NOT TRANSLATED");
+}
+
+TEST(AbaqusDeck, holds_nodes_where_they_are) {
+  const std::string deck = imported(
+      "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 3, -2.5\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY, FIXED\n7, 1, "
+      "3\n*END STEP\n");
+  expect_in(deck, "local support_boundary");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+}
+
 TEST(AbaqusDeck, does_not_guess_what_a_line_means) {
   for (const char* card :
        {"*CLOAD\nE, 4, 1.\n", "*CLOAD\n7, 7, 1.\n", "*DLOAD\nE, P2NU, 1.\n", "*DLOAD\nE, CENTRIF, 1.\n",
-        "*BOUNDARY, TYPE=VELOCITY\nX0, 1\n", "*BOUNDARY, FIXED\nX0, 1\n", "*BOUNDARY\nX0, 11, 11, 5.\n",
-        "*CLOAD, AMPLITUDE=A\n7, 1, 1.\n", "*CLOAD, FOLLOWER\n7, 1, 1.\n",
-        "*CLOAD, AMPLITUDE=A, TIME DELAY=1.\n7, 1, 1.\n", "*EQUATION\n2\n7,1,1.,10,1,-1.\n",
-        "*DLOAD\n100, GRAV, 9810., 0., 0., -1.\n", "*CLOAD\nNOWHERE, 1, 1.\n"}) {
+        "*BOUNDARY, TYPE=VELOCITY\nX0, 1\n", "*BOUNDARY\nX0, 11, 11, 5.\n", "*CLOAD, AMPLITUDE=A\n7, 1, 1.\n",
+        "*CLOAD, FOLLOWER\n7, 1, 1.\n", "*CLOAD, AMPLITUDE=A, TIME DELAY=1.\n7, 1, 1.\n",
+        "*EQUATION\n2\n7,1,1.,10,1,-1.\n", "*DLOAD\n100, GRAV, 9810., 0., 0., -1.\n", "*CLOAD\nNOWHERE, 1, 1.\n"}) {
     SCOPED_TRACE(card);
     expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n" + std::string(card) + "*END STEP\n"), "NOT TRANSLATED");
   }

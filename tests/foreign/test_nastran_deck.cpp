@@ -94,13 +94,60 @@ TEST(NastranDeck, passes_supports_and_forces_of_a_centre_on_to_the_nodes_around_
   expect_in(imported("", "RBE3,91,,22,123,1.,123,9,2.\n,123,10\nFORCE,1,22,,8.,1.,0.,0.\n"), "NOT TRANSLATED");
 }
 
+// Its system's axes 1, 2, 3 are y, z, x: the offset is along x, moments and products turn with it.
+TEST(NastranDeck, has_a_rigid_body_of_a_mass_behind_a_rigid_face) {
+  const std::string system = "CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\n", rbe2 = "RBE2,91,22,123456,9,10,11,12\n";
+  const std::string deck =
+      imported("", system + rbe2 + "CONM2,92,22,5,.002,0.,0.,4.\n,7.,1.,8.,2.,3.,9.\nSPC1,1,123,1,2,3,4\n");
+  expect_in(deck, "on = part_high:face \"rbe2 28\", mass = 0.002*force/acceleration,");
+  // I(1,1) = 7 is of y, I(2,2) = 8 of z, I(3,3) = 9 of x; I21 = 1 of yz, I31 = 2 of yx, I32 = 3 of zx.
+  const std::string unit = "*force/acceleration*length^2";
+  expect_in(deck, "inertia = { 9" + unit + ", 7" + unit + ", 8" + unit + ", -2" + unit + ", -3" + unit + ", -1" + unit +
+                      " }, at = { 9*length, 5*length, 20*length } }");
+  expect_in(deck, "between = { part_high:face \"rbe2 28\", body_rbe2_28:face \"rbe2 28\" } }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(imported("", rbe2 + "CONM2,92,22,,.002\n"), "CONM2 has no moments of inertia");
+  expect_in(imported("", "RBE2,91,22,123456,9,10\nCONM2,92,22,,.002,,,,\n,7.,,8.,,,9.\n"), "are a face of 0 parts");
+  expect_in(imported("", "RBE2,91,22,123,9,10,11,12\nCONM2,92,9,,.002\n"), "NOT TRANSLATED");  // on a node of cells
+}
+
+TEST(NastranDeck, has_a_mass_on_the_mean_motion_of_nodes) {
+  const std::string mass = "CONM2,92,22,,.002,,,,\n,7.,,8.,,,9.\n";
+  const std::string deck = imported("", "RBE3,91,,22,123456,1.,123,9,10\n,11,12\n" + mass + "SPC1,1,123,1,2,3,4\n");
+  expect_in(deck, ":face \"rbe3 26\" }, motion = \"mean\", weights = \"nodes\" }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(imported("", "RBE3,91,,22,123,1.,123,9,10\n,11,12\n" + mass), "follows in some directions alone");
+  expect_in(imported("", "RBE3,91,,22,123456,1.,123,9,2.\n,123,10,11,12\n" + mass), "its weights differ");
+}
+
+TEST(NastranDeck, has_springs_on_nodes_and_their_means) {
+  const std::string deck =
+      imported("",
+               "PBUSH,5,K,10.,20.,30.\n,,B,.1\nCORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nCBUSH,90,5,1,,,,,5\n"
+               "CELAS2,91,400.,2,3\nRBE3,92,,22,123456,1.,123,9,10\n,11,12\nGRID,40,,5.,5.,20.\nPELAS,7,50.\nCELAS1,93,"
+               "7,22,1\n"
+               "SPC1,1,123,4\n");
+  // Axes 1, 2, 3 of system 5 are y, z, x.
+  expect_in(deck,
+            "on = { part_low:region \"cbush 30\" }, x = 30*force/length, y = 10*force/length, y_damping = "
+            "0.1*force*time/length, z = 20*force/length }");
+  expect_in(deck, "on = { part_low:region \"celas2 31\" }, z = 400*force/length }");
+  expect_in(deck, "x = 50*force/length }");
+  expect_in(deck, "supports = { support_spc1_37, spring_1, spring_2, spring_3 }");
+  const std::string equal = "PBUSH,5,K,10.,10.,10.\n";
+  expect_in(imported("", equal + "CBUSH,90,5,1,2\n"), "its nodes are not at one place");
+  expect_in(imported("", "PBUSH,5,K,10.,20.,30.\nCBUSH,90,5,1\n"), "unlike stiffness");
+  expect_in(imported("", "PBUSH,5,K,10.,10.,10.,5.\nCBUSH,90,5,1,,,,,0\n"), "stiffness against rotation");
+  expect_in(imported("", equal + "CBUSH,90,5,20\n"), "node 20 is of no cell");
+  expect_in(imported("", "CELAS2,90,10.,1,1,7,1\n"), "not on a line along its direction");
+}
+
 TEST(NastranDeck, does_not_guess_what_a_card_means) {
   for (const char* card :
-       {"CONM2,90,9,,1.-3\n", "CBUSH,90,5,9,1\n", "CELAS2,90,1000.,9,1\n",
-        "MPC,1,9,1,1.,10,1,-1.\nMPCADD,2,1\nSPCD,1,9,1,.1\n", "MOMENT,1,9,,1.,1.,0.,0.\n", "RFORCE,1,9,,1.,0.,0.,1.\n",
-        "PLOAD4,1,2,1.,2.,3.,4.,9,11\n", "PLOAD4,1,2,1.,,,,9,10\n", "PLOAD2,1,1.,2\n", "FORCE,1,99,,1.,1.,0.,0.\n",
-        "FORCE,1,20,,1.,1.,0.,0.\n", "SPC1,1,123,20\n", "SPC1,1,7,9\n", "PARAM,INREL,-1\n", "BOLT,1,1,2\n",
-        "SPC1,1,3,1\nSPC1,2,3,2\n"}) {
+       {"CONM2,90,9,,1.-3\n", "CBUSH,90,5,9,1\n", "MPC,1,9,1,1.,10,1,-1.\nMPCADD,2,1\nSPCD,1,9,1,.1\n",
+        "MOMENT,1,9,,1.,1.,0.,0.\n", "RFORCE,1,9,,1.,0.,0.,1.\n", "PLOAD4,1,2,1.,2.,3.,4.,9,11\n",
+        "PLOAD4,1,2,1.,,,,9,10\n", "PLOAD2,1,1.,2\n", "FORCE,1,99,,1.,1.,0.,0.\n", "FORCE,1,20,,1.,1.,0.,0.\n",
+        "SPC1,1,123,20\n", "SPC1,1,7,9\n", "PARAM,INREL,-1\n", "BOLT,1,1,2\n", "SPC1,1,3,1\nSPC1,2,3,2\n"}) {
     SCOPED_TRACE(card);
     const std::string deck = imported("", card);
     expect_in(deck, "NOT TRANSLATED");
