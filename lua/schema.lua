@@ -125,6 +125,19 @@ local function share_of_bolt(of)
   return { "share", type = "number", range = { 1e-6, 1 }, default_doc = "1", doc = "modelled fraction: 0.25 of " .. of .. " in a quarter model" }
 end
 
+-- What the margins of a bolt are against.
+local function rating_of_bolt()
+  return { "size", type = "choice", choices = { "M3", "M4", "M5", "M6", "M8", "M10", "M12", "M14", "M16", "M18", "M20", "M22", "M24", "M27", "M30" },
+      doc = "thread of the bolt, coarse (ISO 262), for its margins: with `class` its proof load, pi/4 (d - 0.9382 pitch)^2 times the stress of the class" },
+    { "class", type = "choice",
+      choices = { "4.6", "4.8", "5.6", "5.8", "6.8", "8.8", "9.8", "10.9", "12.9", "A2-50", "A2-70", "A2-80", "A4-50", "A4-70", "A4-80" },
+      doc = "its property class: proof stress 225, 310, 280, 380, 440, 580 (above M16: 600), 650, 830, 970 MPa (ISO 898-1); stress at 0.2 % 210, 450, 600 MPa (ISO 3506-1)" },
+    { "proof_load", type = "number", unit = "N", range = { 1, 1e9 }, doc = "of the whole bolt, in place of both" },
+    { "safety", type = "number", range = { 1, 100 }, default_doc = "1", doc = "factor on what loads and motion add to the preload and take from it" },
+    { "joint", type = "objects", kinds = { "interface" }, at_least = 1, or_single = true,
+      doc = "contacts that the bolts of `on` clamp, for margins against slip and separation: each bolt has the points that are nearest to its axis" }
+end
+
 local friction = { "friction", type = "number", range = { 0, 1000 }, usual = { 0, 2, "metals have 0.05 to 1" }, default = 0, doc = "Coulomb's coefficient" }
 local friction_of_contact = { "friction", type = "number", range = friction.range, usual = friction.usual, default_doc = "0, with a warning if bolts are tightened", doc = friction.doc }
 local duration = { 1e-9, 100 }  -- s
@@ -677,7 +690,7 @@ words[6] = {
     arguments = {
       on(tightened, "shortened interfaces"),
       { "by", type = "value", unit = "m", range = { -0.01, 0.01 }, required = true, doc = "a positive one tightens" },
-      share_of_bolt "the whole bolt of `hand`", by_hand,
+      share_of_bolt "the whole bolt of `hand` and `size`", by_hand, rating_of_bolt(),
     },
   },
   {
@@ -691,7 +704,7 @@ words[6] = {
       { "torque", type = "number", unit = "N m", range = { 0, 1e6 }, doc = "on the nut or head of the whole bolt" },
       { "friction_factor", type = "number", range = { 0.01, 1 }, doc = "nut factor K; about 0.2 for dry steel" },
       { "diameter", type = "number", unit = "m", range = { 1e-4, 0.5 }, doc = "nominal, of the thread" },
-      share_of_bolt "the whole bolt of `torque` and `hand`", by_hand,
+      share_of_bolt "the whole bolt of `torque`, `hand` and `size`", by_hand, rating_of_bolt(),
     },
   },
   {

@@ -59,7 +59,10 @@ std::string bolts_csv(const Problem& problem, const RunResult& result) {
   for (const std::string& step : steps) text += "," + quoted("after " + step + " [N]");
   text +=
       ",lowest [N],highest [N],last [N],loss [1],shortening [m],plastic_opening [m],hand [N],hand_shortening "
-      "[m],load_factor [1],loss_by_yield [1],swing [N],converged\n";
+      "[m],load_factor [1],loss_by_yield [1],swing [N],converged";
+  const bool has_margins = std::any_of(result.bolts.begin(), result.bolts.end(),
+                                       [](const BoltSummary& bolt) { return bolt.margins.has_value(); });
+  text += has_margins ? ",proof_load [N],largest [N],margin_proof [1],margin_slip [1],margin_separation [1]\n" : "\n";
   for (const BoltSummary& bolt : result.bolts) {
     text += quoted(bolt.name) + "," + number(bolt.area) + "," + number(bolt.target);
     for (size_t i = 0; i < steps.size(); ++i)
@@ -71,7 +74,15 @@ std::string bolts_csv(const Problem& problem, const RunResult& result) {
     text += "," + number(bolt.hand);
     text += bolt.formula ? "," + number(bolt.formula->shortening) + "," + number(bolt.formula->resilience.load_factor())
                          : ",,";
-    text += "," + number(bolt.loss_by_yield()) + "," + number(bolt.swing) + (result.converged ? ",1\n" : ",0\n");
+    text += "," + number(bolt.loss_by_yield()) + "," + number(bolt.swing) + (result.converged ? ",1" : ",0");
+    if (const auto& margins = bolt.margins)
+      for (const std::optional<double>& value :
+           {std::optional(margins->proof_load), std::optional(margins->largest),
+            std::optional(margins->against_proof(bolt.tightened)), margins->slip, margins->against_separation()})
+        text += "," + number(value);
+    else if (has_margins)
+      text += ",,,,,";
+    text += "\n";
   }
   return text;
 }
@@ -101,13 +112,31 @@ std::vector<std::string> bolt_lines(const Problem& problem, const RunResult& res
     add("at the end", [](const BoltSummary& b) { return shown(b.last); });
   }
   add("loss", [](const BoltSummary& b) { return percent(b.loss()); });
+  const auto add_margin = [&](const std::string& head, auto&& margin_of) {
+    if (std::any_of(result.bolts.begin(), result.bolts.end(),
+                    [&](const BoltSummary& b) { return margin_of(b).has_value(); }))
+      add(head, [&](const BoltSummary& b) {
+        const std::optional<double> margin = margin_of(b);
+        return margin ? fmt::format("{:.2f}", *margin) : std::string("-");
+      });
+  };
+  add_margin("proof", [](const BoltSummary& b) {
+    return b.margins ? std::optional(b.margins->against_proof(b.tightened)) : std::nullopt;
+  });
+  add_margin("slip", [](const BoltSummary& b) { return b.margins ? b.margins->slip : std::nullopt; });
+  add_margin("separation",
+             [](const BoltSummary& b) { return b.margins ? b.margins->against_separation() : std::nullopt; });
   const auto has_formula = [](const BoltSummary& bolt) { return bolt.formula.has_value(); };
   if (std::any_of(result.bolts.begin(), result.bolts.end(), has_formula))
     add("by hand", [](const BoltSummary& b) { return shown(b.hand); });
 
   std::vector<std::string> lines{"  bolts: forces (kN) at the end of each static step" +
                                  std::string(has_shock ? ", lowest and highest in the dynamic ones" : "") +
-                                 "; loss since a bolt's own tightening"};
+                                 "; loss since a bolt's own tightening" +
+                                 std::string(std::any_of(result.bolts.begin(), result.bolts.end(),
+                                                         [](const BoltSummary& b) { return b.margins.has_value(); })
+                                                 ? "; margins"
+                                                 : "")};
   if (first > 0)
     lines.push_back(fmt::format("    the last {} static steps; bolts.csv has all {}", most_columns, steps.size()));
   for (size_t row = 0; row <= result.bolts.size(); ++row) {

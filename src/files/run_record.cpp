@@ -193,6 +193,14 @@ Json bolts(const RunResult& result) {
       if (const auto before = bolt.loss_before_motion()) json["loss_before_motion"] = *before;
     }
     if (bolt.target) json["target"] = *bolt.target;
+    if (const auto& margins = bolt.margins) {
+      json["proof_load"] = margins->proof_load;
+      json["largest"] = margins->largest;
+      json["safety"] = margins->safety;
+      json["margin_proof"] = margins->against_proof(bolt.tightened);
+      if (margins->slip) json["margin_slip"] = *margins->slip;
+      if (const auto separation = margins->against_separation()) json["margin_separation"] = *separation;
+    }
     if (bolt.formula)
       json["hand"] = {{"force", bolt.hand.value_or(0.0)},
                       {"shortening", bolt.formula->shortening},

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "model/bolt_formula.hpp"
+#include "model/bolt_rating.hpp"
 #include "model/model.hpp"
 
 namespace dygita {
@@ -55,6 +56,7 @@ struct Tightening {
   TimeValue value;
   std::optional<BoltDimensions> hand;  // the bolt that a hand formula is printed for
   double share = 1.0;                  // of that bolt, in the model
+  std::optional<BoltRating> rating;    // what its margins are against
 };
 struct Shortening : Tightening {};    // by a length, m
 struct PreloadForce : Tightening {};  // until a force goes through it, N: the shortening is found

@@ -27,6 +27,37 @@ std::optional<BoltDimensions> bolt_by_hand(const Arguments& arguments) {
   return b;
 }
 
+std::optional<BoltRating> bolt_rating(const ModelArguments& a) {
+  const bool is_standard = a.has("size") || a.has("class");
+  if (!is_standard && !a.has("proof_load")) {
+    for (const char* of_rating : {"joint", "safety"})
+      if (a.has(of_rating))
+        throw InputError(
+            fmt::format("'{}' is for margins, which require 'size' and 'class', or 'proof_load'", of_rating));
+    return std::nullopt;
+  }
+  if (is_standard && a.has("proof_load")) throw InputError("'proof_load' takes the place of 'size' and 'class'");
+  if (is_standard && !(a.has("size") && a.has("class"))) throw InputError("'size' and 'class' go together");
+  BoltRating rating;
+  rating.safety = a.number_or("safety", 1.0);
+  if (is_standard) {
+    const Thread thread = thread_of(a.text("size"));
+    rating.proof_load = thread.stress_area() * proof_stress(a.text("class"), thread);
+  } else {
+    rating.proof_load = a.number("proof_load");
+  }
+  for (const Target& target : a.targets("joint")) {
+    const auto& interface = std::get<InterfacePtr>(target);
+    if (!interface->law->shown().gap)
+      throw InputError(
+          fmt::format("'joint' has interface.{} '{}', which is no contact: a bolt clamps contacts, whose "
+                      "friction carries its shear",
+                      interface->law->word(), interface->name));
+    rating.joint.push_back(interface);
+  }
+  return rating;
+}
+
 std::string tightened_interfaces() {
   std::string text;
   for (const LawEntry& entry : law_table())

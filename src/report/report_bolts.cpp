@@ -124,7 +124,32 @@ std::vector<BoltColumn> columns_of(bool has_motion) {
   columns.push_back(
       {"mean stress", "Pa", [](const Json& bolt) { return number(bolt, "last") / number(bolt, "area"); }});
   columns.push_back({"residual opening", "m", key("plastic_opening")});
+  columns.push_back({"proof load", "N", key("proof_load"), 4});
+  columns.push_back({"margin: proof", "", key("margin_proof")});
+  columns.push_back({"margin: slip", "", key("margin_slip")});
+  columns.push_back({"margin: separation", "", key("margin_separation")});
   return columns;
+}
+
+// What the columns of margins mean, where there are any.
+std::string margins_text(const Json& bolts) {
+  std::string text;
+  const auto has = [&](const char* key) {
+    return std::any_of(bolts.begin(), bolts.end(), [&](const Json& bolt) { return bolt.contains(key); });
+  };
+  if (has("margin_proof"))
+    text +=
+        " Margins are what is left over 1, negative where a limit is passed; proof: of the proof load over the largest "
+        "force, "
+        "with the factor of safety on what loads added to the preload.";
+  if (has("margin_slip"))
+    text += " Slip: the friction that the clamped contact around the bolt could carry over its shear, least in time.";
+  if (has("margin_separation"))
+    text +=
+        " Separation: of the load that would part the contact around the bolt over the largest that it saw, in "
+        "proportion to "
+        "the pressing force that is lost.";
+  return text;
 }
 
 }  // namespace
@@ -149,7 +174,8 @@ std::string bolts_section(const RunFolder& run) {
       force_figure(run, bolts) + html::table(header, in_common_units(rows), true) +
           html::paragraph("Forces are those through the modelled part of each bolt, tension positive; lost: "
                           "relative to its own tightening, at the end; the mean stress is that at the end, "
-                          "over the modelled area.") +
+                          "over the modelled area." +
+                          margins_text(bolts)) +
           loss_figure(run, bolts) + history_table(bolts, steps));
 }
 

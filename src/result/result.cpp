@@ -30,6 +30,15 @@ bool contacts_change(const Problem& problem, const std::vector<ContactSummary>& 
   return false;
 }
 
+double BoltMargins::against_proof(double tightened) const {
+  return proof_load / (largest + (safety - 1.0) * std::max(0.0, largest - tightened)) - 1.0;
+}
+
+std::optional<double> BoltMargins::against_separation() const {
+  if (!clamp || !(*clamp - *least_clamp > 0.0)) return std::nullopt;
+  return *clamp / (safety * (*clamp - *least_clamp)) - 1.0;
+}
+
 bool Table::has_column(const std::string& name) const {
   return std::find(names.begin(), names.end(), name) != names.end() || (name == "converged" && !converged.empty());
 }

@@ -76,6 +76,19 @@ struct BoltByHand {
   double shortening = 0.0;    // m, for the force asked for, or that its tightening gave
 };
 
+// A bolt against what it may carry, and the contacts that it clamps (manual, eq. B8-B10); N, of the modelled share.
+struct BoltMargins {
+  double proof_load = 0.0, safety = 1.0;
+  double largest = 0.0;               // force, at any time
+  std::optional<double> slip;         // the least margin in time, where it clamps contacts that carry shear
+  std::optional<double> clamp;        // on that of its contacts which lost the most, when all bolts were tight
+  std::optional<double> least_clamp;  // the least on it since then
+
+  double against_proof(double tightened) const;  // tightened: by its own tightening
+  // None: there are no contacts, or they lose nothing.
+  std::optional<double> against_separation() const;
+};
+
 // What became of a bolt: an interface that a step shortens or preloads. Forces through the modelled interface, N,
 // tension positive.
 struct BoltSummary {
@@ -95,6 +108,7 @@ struct BoltSummary {
   std::optional<double> before_motion;  // N, where the first dynamic step began, if it was tightened by then
   double yielded_before = 0.0;          // m, `yielded` there
   std::optional<BoltByHand> formula;    // where the deck gives the bolt's dimensions
+  std::optional<BoltMargins> margins;   // where it gives what the bolt may carry
 
   // Of what the bolt's own tightening gave, the share that is gone at the end; none where the bolt was hardly
   // tightened: a tenth of the largest force through it, which then is the load's and not the bolt's.

@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/error.hpp"
+#include "law/law.hpp"
+#include "ranks/ranks.hpp"
 
 namespace dygita {
 
@@ -21,6 +27,22 @@ std::optional<Tightened> tightened(const Step& step, const Interface* interface)
   return std::nullopt;
 }
 
+double friction_in(const Law& law) {
+  for (const LawParameter& parameter : law.parameters())
+    if (parameter.name == "friction") return std::get<double>(parameter.value);
+  return 0.0;
+}
+
+// f(index, state) of every point that this rank keeps.
+template <class Function>
+void for_each_point(const Instant& instant, int s, Function&& f) {
+  const std::vector<LawState>& points = instant.state.surfaces[static_cast<size_t>(s)].points;
+  if (instant.distant)
+    for (const int i : instant.distant->here(s)) f(i, points[static_cast<size_t>(i)]);
+  else
+    for (size_t i = 0; i < points.size(); ++i) f(static_cast<int>(i), points[i]);
+}
+
 }  // namespace
 
 BoltRecorder::BoltRecorder(const Problem& problem) {
@@ -33,6 +55,16 @@ BoltRecorder::BoltRecorder(const Problem& problem) {
     interfaces_.push_back(interface);
     bolts_.emplace_back();
     bolts_.back().name = interface->name;
+    ratings_.emplace_back();
+    for (size_t i_step = 0; i_step < problem.steps.size(); ++i_step)
+      if (const auto now = tightened(*problem.steps[i_step], interface)) {
+        last_tightening_ = std::max(last_tightening_, static_cast<int>(i_step));
+        if (!now->by.rating) continue;
+        ratings_.back() = now->by.rating;
+        bolts_.back().margins.emplace();
+        bolts_.back().margins->proof_load = now->by.share * now->by.rating->proof_load;
+        bolts_.back().margins->safety = now->by.rating->safety;
+      }
   }
   now_.resize(bolts_.size());
   before_ = tightened_ = now_;
@@ -52,7 +84,78 @@ BoltRecorder::Held BoltRecorder::held(const Instant& instant, int surface) {
   return held;
 }
 
+// Each point of a contact goes with the nearest of the axes of the bolts that clamp it.
+void BoltRecorder::find_clamped(const Instant& start) {
+  struct Axis {
+    Vec3 place, along;
+  };
+  std::map<int, std::vector<std::pair<size_t, Axis>>> bolts_of;  // by surface
+  for (size_t b = 0; b < bolts_.size(); ++b) {
+    if (!ratings_[b]) continue;
+    const Facing& shank = (*start.model.surfaces)[static_cast<size_t>(surfaces_[b])].facing;
+    const Axis axis{shank.places * shank.areas / shank.areas.sum(), (shank.normals * shank.areas).normalized()};
+    for (const InterfacePtr& contact : ratings_[b]->joint) {
+      const int surface = index_of(start.model.problem->interfaces, contact.get());
+      if (surface < 0)
+        throw InputError("bolt '" + bolts_[b].name + "': its 'joint' has '" + contact->name +
+                         "', which is not among the interfaces of the problem");
+      bolts_of[surface].emplace_back(b, axis);
+    }
+  }
+  for (const auto& [surface, bolts] : bolts_of) {
+    const Surface& contact = (*start.model.surfaces)[static_cast<size_t>(surface)];
+    const size_t first = clamped_.size(), n = static_cast<size_t>(contact.n_points());
+    for (const auto& [b, axis] : bolts)
+      clamped_.push_back(
+          {b, surface, friction_in(contact.declared_law()), ratings_[b]->safety, std::vector<char>(n, 0)});
+    for (size_t i = 0; i < n; ++i) {
+      size_t nearest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (size_t k = 0; k < bolts.size(); ++k) {
+        const Axis& axis = bolts[k].second;
+        const Vec3 off = contact.facing.places.col(static_cast<Eigen::Index>(i)) - axis.place;
+        if (const double distance = off.cross(axis.along).norm(); distance < least) least = distance, nearest = k;
+      }
+      clamped_[first + nearest].has_point[i] = 1;
+    }
+  }
+}
+
+void BoltRecorder::follow_clamped(const Instant& instant) {
+  const Step& step = *instant.model.step;
+  const bool is_tight = instant.i_step > last_tightening_,
+             gets_tight = instant.i_step == last_tightening_ && instant.increment + 1 == step.increments;
+  if (clamped_.empty() || !(is_tight || gets_tight)) return;
+  std::vector<double> sums(4 * clamped_.size(), 0.0);  // N: pressed, and shear along x, y, z
+  for (size_t c = 0; c < clamped_.size(); ++c) {
+    const Facing& facing = (*instant.model.surfaces)[static_cast<size_t>(clamped_[c].surface)].facing;
+    for_each_point(instant, clamped_[c].surface, [&](int i, const LawState& point) {
+      if (!clamped_[c].has_point[static_cast<size_t>(i)]) return;
+      const Vec3 n = facing.normals.col(i);
+      const double normal = point.force.dot(n);
+      sums[4 * c] -= normal;
+      Eigen::Map<Vec3>(&sums[4 * c + 1]) += point.force - normal * n;
+    });
+  }
+  if (!ranks::is_alone()) sums = ranks::sums(sums);
+  for (size_t c = 0; c < clamped_.size(); ++c) {
+    Clamped& own = clamped_[c];
+    BoltMargins& margins = *bolts_[own.bolt].margins;
+    const double pressed = sums[4 * c], shear = Eigen::Map<const Vec3>(&sums[4 * c + 1]).norm();
+    if (gets_tight) own.pressed = own.least = pressed;
+    own.least = std::min(own.least, pressed);
+    const double left = own.pressed - own.least;
+    if (!margins.clamp || left * *margins.clamp > (*margins.clamp - *margins.least_clamp) * own.pressed)
+      margins.clamp = own.pressed, margins.least_clamp = own.least;
+    if (!(shear > 1e-9 * std::abs(own.pressed)) || own.friction == 0.0) continue;
+    const double held = std::max(0.0, pressed - (own.safety - 1.0) * std::max(0.0, own.pressed - pressed));
+    const double slip = own.friction * held / (own.safety * shear) - 1.0;
+    margins.slip = std::min(margins.slip.value_or(slip), slip);
+  }
+}
+
 void BoltRecorder::begin_step(const Instant& start) {
+  if (start.i_step == 0) find_clamped(start);
   for (size_t b = 0; b < bolts_.size(); ++b) {
     now_[b] = held(start, surfaces_[b]);
     if (start.i_step == 0) bolts_[b].area = (*start.model.surfaces)[surfaces_[b]].facing.areas.sum();
@@ -106,6 +209,7 @@ void BoltRecorder::accept(const Instant& instant) {
     before_[b] = now_[b];
     now_[b] = held(instant, surfaces_[b]);
     bolt.last = now_[b].force;
+    if (bolt.margins) bolt.margins->largest = std::max(bolt.margins->largest, bolt.last);
     bolt.shortening = now_[b].shortening;
     bolt.yielded = now_[b].opening - tightened_[b].opening;
     bolt.plastic_opening = 0.0;
@@ -121,6 +225,7 @@ void BoltRecorder::accept(const Instant& instant) {
       bolt.yielded = 0.0;
     }
   }
+  follow_clamped(instant);
 }
 
 }  // namespace dygita

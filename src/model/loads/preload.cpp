@@ -24,16 +24,17 @@ TimeValue force_of(const ModelArguments& a) {
   if (has_torque) return {History::constant(torque_force(a)), true};
   for (const char* of_torque : {"friction_factor", "diameter"})
     if (a.has(of_torque)) throw InputError(fmt::format("'{}' goes with 'torque', and 'force' is given", of_torque));
-  if (a.has("share") && !a.has("hand"))
+  if (a.has("share") && !a.has("hand") && !a.has("size") && !a.has("proof_load"))
     throw InputError(
-        "'share' requires 'torque' or 'hand'\n    'force' acts through the modelled interface: a quarter model takes a "
+        "'share' requires 'torque', 'hand' or 'size'\n    'force' acts through the modelled interface: a quarter model "
+        "takes a "
         "quarter");
   return a.value("force");
 }
 
 class Preload final : public Load {
  public:
-  explicit Preload(const ModelArguments& a) : Preload(a, bolt_by_hand(a)) {}
+  explicit Preload(const ModelArguments& a) : Preload(a, bolt_by_hand(a), bolt_rating(a)) {}
 
   std::string acts_on() const override { return tightened_interfaces(); }
   bool can_act_on(const Target& target) const override { return can_be_tightened(target); }
@@ -51,16 +52,17 @@ class Preload final : public Load {
   std::vector<Effect> effects() const override {
     std::vector<Effect> all;
     for (const Target& target : on)
-      all.push_back(PreloadForce{{std::get<InterfacePtr>(target), *values[0], hand_, share_}});
+      all.push_back(PreloadForce{{std::get<InterfacePtr>(target), *values[0], hand_, share_, rating_}});
     return all;
   }
   Settings settings() const override { return {}; }
 
  private:
-  Preload(const ModelArguments& a, std::optional<BoltDimensions> hand)
-      : Load(a, {force_of(a)}), hand_(std::move(hand)), share_(a.number_or("share", 1.0)) {}
+  Preload(const ModelArguments& a, std::optional<BoltDimensions> hand, std::optional<BoltRating> rating)
+      : Load(a, {force_of(a)}), hand_(std::move(hand)), rating_(std::move(rating)), share_(a.number_or("share", 1.0)) {}
 
   std::optional<BoltDimensions> hand_;
+  std::optional<BoltRating> rating_;
   double share_;
 };
 

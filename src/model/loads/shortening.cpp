@@ -11,8 +11,12 @@ namespace {
 class Shorten final : public Load {
  public:
   explicit Shorten(const ModelArguments& a)
-      : Load(a, one_value(a, "by")), hand_(bolt_by_hand(a)), share_(a.number_or("share", 1.0)) {
-    if (a.has("share") && !hand_) throw InputError("'share' refers to the bolt described by 'hand', which is missing");
+      : Load(a, one_value(a, "by")),
+        hand_(bolt_by_hand(a)),
+        rating_(bolt_rating(a)),
+        share_(a.number_or("share", 1.0)) {
+    if (a.has("share") && !hand_ && !rating_)
+      throw InputError("'share' refers to the bolt described by 'hand' or 'size', which are missing");
   }
 
   std::string acts_on() const override { return tightened_interfaces(); }
@@ -33,13 +37,14 @@ class Shorten final : public Load {
   std::vector<Effect> effects() const override {
     std::vector<Effect> all;
     for (const Target& target : on)
-      all.push_back(Shortening{{std::get<InterfacePtr>(target), *values[0], hand_, share_}});
+      all.push_back(Shortening{{std::get<InterfacePtr>(target), *values[0], hand_, share_, rating_}});
     return all;
   }
   Settings settings() const override { return {}; }
 
  private:
   std::optional<BoltDimensions> hand_;
+  std::optional<BoltRating> rating_;
   double share_;
 };
 
