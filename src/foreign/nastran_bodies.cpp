@@ -32,7 +32,7 @@ double NastranBodies::size_of(const std::vector<int>& nodes) const {
   return largest;
 }
 
-// Moments I11, I22, I33 and products, which the matrix has with a minus.
+// Moments I(1,1), I(2,2), I(3,3) and products, which the matrix has with a minus.
 Mat3 NastranBodies::inertia_of(const BulkFields& fields) const {
   constexpr int moments = 9;
   const auto at = [&](int i) { return fields.real_or(moments + i, 0.0, "a moment of inertia"); };

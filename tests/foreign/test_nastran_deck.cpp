@@ -100,7 +100,7 @@ TEST(NastranDeck, has_a_rigid_body_of_a_mass_behind_a_rigid_face) {
   const std::string deck =
       imported("", system + rbe2 + "CONM2,92,22,5,.002,0.,0.,4.\n,7.,1.,8.,2.,3.,9.\nSPC1,1,123,1,2,3,4\n");
   expect_in(deck, "on = part_high:face \"rbe2 28\", mass = 0.002*force/acceleration,");
-  // I(1,1) = 7 is of y, I(2,2) = 8 of z, I(3,3) = 9 of x; I21 = 1 of yz, I31 = 2 of yx, I32 = 3 of zx.
+  // I(1,1) = 7 is of y, I(2,2) = 8 of z, I(3,3) = 9 of x; I(2,1) = 1 of yz, I(3,1) = 2 of yx, I(3,2) = 3 of zx.
   const std::string unit = "*force/acceleration*length^2";
   expect_in(deck, "inertia = { 9" + unit + ", 7" + unit + ", 8" + unit + ", -2" + unit + ", -3" + unit + ", -1" + unit +
                       " }, at = { 9*length, 5*length, 20*length } }");
