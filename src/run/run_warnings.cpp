@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/log.hpp"
+#include "base/warnings.hpp"
 #include "law/law.hpp"
 #include "partition/stored_precision.hpp"
 #include "result/limits.hpp"
@@ -230,9 +231,28 @@ void warn_of_overtightened(const Problem& problem, const BoltSummary& bolt) {
                            : fmt::format("no bolt bears more than {:.4g} MPa", limit::bolt_stress / 1e6)));
 }
 
+void warn_of_margins(const BoltSummary& bolt) {
+  if (!bolt.margins) return;
+  std::string negative;
+  double least = 0.0;
+  for (const auto& [against, margin] : {std::pair("proof", std::optional(bolt.margins->against_proof(bolt.tightened))),
+                                        {"slip", bolt.margins->slip},
+                                        {"separation", bolt.margins->against_separation()}})
+    if (margin && *margin < 0.0) {
+      negative += fmt::format("{}{} {:.2f}", negative.empty() ? "" : ", ", against, *margin);
+      least = std::min(least, *margin);
+    }
+  if (!negative.empty())
+    warn(fmt::format("bolt '{}' has negative margins: {}", bolt.name, negative),
+         {"margins of bolts", -least, "'" + bolt.name + "'"});
+}
+
 // A shortening that a preload has found has no range of its own.
 void warn_of_bolts(const Problem& problem, const RunResult& result) {
-  for (const BoltSummary& bolt : result.bolts) warn_of_overtightened(problem, bolt);
+  for (const BoltSummary& bolt : result.bolts) {
+    warn_of_overtightened(problem, bolt);
+    warn_of_margins(bolt);
+  }
   for (const BoltSummary& bolt : result.bolts)
     if (std::abs(bolt.shortening) > limit::bolt_shortening)
       warn(fmt::format(

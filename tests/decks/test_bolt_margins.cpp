@@ -72,6 +72,15 @@ TEST(BoltMargins, are_in_the_table_of_the_run) {
   EXPECT_EQ(bolts_csv(run.problem, *run.result).find("nan"), std::string::npos);
 }
 
+// 2 kN of shear are more than the friction of what is left of 10 kN under 1/4 of it, with the factor.
+TEST(BoltMargins, that_are_negative_are_told) {
+  testing::internal::CaptureStderr();
+  run_text(lid("proof_load = 10.5*kN, joint = seat, safety = 1.25",
+               "load.force{ on = lid:face 'block.zmax', z = 10*kN, y = 4*kN }"));
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("' has negative margins: proof -0.15, slip -0.26"), std::string::npos) << told;
+}
+
 // Half of each bolt in a model of half of it.
 TEST(BoltMargins, count_the_share_of_the_bolt_that_is_modelled) {
   const DeckRun run =
