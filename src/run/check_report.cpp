@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/memory.hpp"
 #include "base/warnings.hpp"
 #include "interfaces/unjoined.hpp"
 #include "model/check.hpp"
@@ -11,7 +12,7 @@
 #include "reference/explicit.hpp"
 #include "run/part_lines.hpp"
 #include "run/run_problem.hpp"
-#include "step/step_model.hpp"
+#include "step/step_needs.hpp"
 
 namespace dygita {
 
@@ -33,7 +34,7 @@ std::string check_report(const Problem& problem) {
   for (const std::string& line : base_lines(problem)) text += line + "\n";
   for (const Surface& surface : surfaces) text += surface_line(surface);
   long increments = 0;
-  double bytes = 0.0;
+  double bytes = 0.0, at_most = 0.0;
   const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
   const CutPtr cut = is_latin ? make_cut(problem, surfaces) : no_cut(problem);
   if (const std::string pieces = list_pieces(problem, cut->counts()); !pieces.empty())
@@ -48,9 +49,10 @@ std::string check_report(const Problem& problem) {
           step->name, step->n_increments(), step->dt * 1e6, size.n_substeps, size.critical * 1e6, size.bytes / 1e6);
       increments += step->n_increments();
       bytes = std::max(bytes, size.bytes);
+      at_most = std::max(at_most, resident_memory() + size.bytes);
       continue;
     }
-    const StepSize size = predict_step(problem, *step, surfaces, bodies, state, cut);
+    const auto [size, step_at_most] = predict_needs(problem, *step, surfaces, bodies, state, cut);
     text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n",
                         step->is_static ? "static" : "dynamic", step->name, step->n_increments(),
                         step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), size.n_unknowns,
@@ -58,11 +60,13 @@ std::string check_report(const Problem& problem) {
     if (const std::string how = describe(size.integration, problem, *step); !how.empty()) text += "    " + how + "\n";
     increments += step->n_increments();
     bytes = std::max(bytes, size.bytes);
+    at_most = std::max(at_most, step_at_most);
   }
   double matrices = 0.0;
   std::set<const StoredMatrices*> known;
   for (const Body& body : bodies)
     if (known.insert(body.matrices.get()).second) matrices += body.matrices->bytes();
+  if (at_most > 0.0) text += fmt::format("  about {:.3g} MB of memory at most, on one thread\n", at_most / 1e6);
   return text + fmt::format(
                     "  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, "
                     "{:.4g} MB for "

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/task.hpp"
@@ -119,7 +120,12 @@ double AssembledSystem::bytes() const {
   return sum;
 }
 
-double AssembledSystem::bytes_at_work() const { return factor_ ? factor_->bytes_at_work() : 0.0; }
+double AssembledSystem::bytes_to_come() const {
+  constexpr double kept = 6.0;  // of the factor, at hand, of the iteration before, what they differ by
+  double of_points = 0.0;
+  for (const PointTraces& point : points_) of_points += 8.0 * std::pow(static_cast<double>(point.rows.rows()), 2);
+  return kept * of_points + (factor_ ? factor_->bytes() + factor_->bytes_at_work() : 0.0);
+}
 
 void AssembledSystem::fill_matrix() {
   std::vector<Mat> forces;  // of each point, by its unknowns

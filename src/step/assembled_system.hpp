@@ -23,8 +23,9 @@ class AssembledSystem {
 
   // Of each point of the exchange, as tangents have them.
   const std::vector<std::vector<int>>& unknowns_of_points() const { return unknowns_of_points_; }
-  double bytes() const;          // of factor and matrices, as they will be
-  double bytes_at_work() const;  // beside them, while one thread computes the factor
+  double bytes() const;  // of factor and matrices, as they will be
+  // What a step takes beside what this takes now: the factor, what one thread works in, tangents of several iterations.
+  double bytes_to_come() const;
 
   // Takes these tangents from now on, and factorises. Throws NumericalError where they leave a motion free.
   void set_tangents(Tangents tangents);

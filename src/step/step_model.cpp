@@ -15,6 +15,7 @@
 #include "partition/all_pieces.hpp"
 #include "step/assembled_system.hpp"
 #include "step/shared_operators.hpp"
+#include "step/step_needs.hpp"
 
 namespace dygita {
 
@@ -300,6 +301,15 @@ void tell_equal_apart(const StepModel& model) {
   }
 }
 
+// What condensing the largest piece takes beside what it leaves: the Schur complement and its inverse in full.
+double bytes_of_condensing(const StepModel& model) {
+  double most = 0.0;
+  for (size_t i = 0; i < model.exchange.n_unknowns.size(); ++i)
+    if (!model.integration.is_explicit_piece(static_cast<int>(i)))
+      most = std::max(most, static_cast<double>(model.exchange.n_unknowns[i]));
+  return 2.0 * 8.0 * most * most;
+}
+
 // All but the pieces.
 StepModel without_pieces(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
@@ -347,14 +357,21 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
   return model;
 }
 
-StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+StepNeeds predict_needs(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                        const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, true);
   if (is_assembled(problem, step, surfaces)) {
     model.pieces = make_assembled_pieces(model, bodies);
-    return {AssembledSystem(model).bytes(), model.n_q(), model.integration};
+    const AssembledSystem system(model);
+    return {{system.bytes(), model.n_q(), model.integration}, resident_memory() + system.bytes_to_come()};
   }
-  return {predicted_bytes(model, bodies), model.n_q(), model.integration};
+  const double bytes = predicted_bytes(model, bodies);
+  return {{bytes, model.n_q(), model.integration}, resident_memory() + bytes + bytes_of_condensing(model)};
+}
+
+StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+  return predict_needs(problem, step, surfaces, bodies, start, cut).size;
 }
 
 }  // namespace dygita
