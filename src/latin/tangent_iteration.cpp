@@ -129,7 +129,7 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
   // W_hat and F_hat, from the image.
   Vec to_velocity = velocity + (image_ - q).cwiseQuotient(2.0 * k_);
   Vec force = image_ - k_.cwiseProduct(to_velocity);
-  if (!solve(to_velocity, force)) return steps_.cannot_follow(outcome.eta);
+  if (!solve(to_velocity, force)) return steps_.cannot_follow();
   const Vec to_q = force + k_.cwiseProduct(to_velocity);
   const auto that_far = [&](double share) {
     return distance(velocity + share * (to_velocity - velocity), q + share * (to_q - q), steps_.limits());

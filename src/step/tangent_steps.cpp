@@ -22,7 +22,7 @@ void TangentSteps::begin() {
   softest_ = usual_softest;
   limits_.clear();
   follows_ = false;
-  follows_below_ = near;
+  n_in_vain_ = n_to_wait_ = 0;
 }
 
 // Friction is limited by the normal forces of an earlier iteration until what that leaves is nearly solved: each such
@@ -36,14 +36,15 @@ double TangentSteps::begin_step(const Distance& distance, const std::function<st
   std::vector<double> at_hand = trials();
   if (!limits_.empty())
     if (const double limited = distance(limits_); limited > nearly * nearly * own) return limited;
-  follows_ = eta < follows_below_ && !limits_.empty();
+  follows_ = eta < near && !limits_.empty() && n_to_wait_-- <= 0;
   limits_ = follows_ ? std::vector<double>() : std::move(at_hand);
   return distance(limits_);
 }
 
-void TangentSteps::cannot_follow(double eta) {
+void TangentSteps::cannot_follow() {
+  constexpr int most_problems = 4;
   follows_ = false;
-  follows_below_ = 0.1 * eta;
+  n_to_wait_ = std::min(++n_in_vain_, most_problems);
 }
 
 double TangentSteps::end_step(double before, const std::function<double(double)>& distance, int n_changed, double eta) {
@@ -57,7 +58,10 @@ double TangentSteps::end_step(double before, const std::function<double(double)>
     }
     if (now < (1.0 - 0.2 * share) * before) break;
   }
-  if (follows_ && least > 0.9 * before) cannot_follow(eta);
+  if (follows_ && least > 0.9 * before)
+    cannot_follow();
+  else if (follows_)
+    n_in_vain_ = 0;
   choose_softest(best, n_changed, eta);
   return best;
 }

@@ -22,8 +22,8 @@ class TangentSteps {
   double begin_step(const Distance& distance, const std::function<std::vector<double>()>& trials, double eta);
   // Is friction limited by each point's own normal force, so that the slopes are to know how it follows?
   bool follows() const { return follows_; }
-  // What follows has not been solved: limits are a step behind again until the indicator is a tenth of this.
-  void cannot_follow(double eta);
+  // What follows has not been solved: limits are a step behind again for some problems.
+  void cannot_follow();
   const std::vector<double>& limits() const { return limits_; }
   // Least stiffness of what is open or slides, for TangentBounds.
   double softest() const { return softest_; }
@@ -35,7 +35,7 @@ class TangentSteps {
 
   int n_ = 0;
   bool follows_ = false;
-  double follows_below_ = 0.0;  // of the indicator
+  int n_in_vain_ = 0, n_to_wait_ = 0;  // times in a row that friction has followed; problems until it does again
   double softest_ = 0.0;
   std::vector<double> limits_;  // empty: none yet
 };
