@@ -464,7 +464,7 @@ words[4] = {
       name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry", or_function = true,
         doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes; a function: the gap (m) "
-          .. "at a place, added to that distance (crowned, wavy, measured faces); where 0, cylinders around one axis keep the gap that is drawn" },
+          .. "at a place, added to that distance (crowned, wavy, measured faces); where 0, cylinders around one axis, and named faces of which one is a cylinder or a sphere and the other plane, keep the gap that is drawn" },
       { "compliance", type = "compliance", default_doc = "none",
         doc = "rough faces, whose asperities deform before the bodies are fully in contact: one of `normal`, `curve` and `asperities`",
         fields = {
