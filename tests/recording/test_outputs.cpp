@@ -174,9 +174,9 @@ TEST_F(Outputs, without_a_name_are_called_by_their_word) {
 TEST(OutputTable, has_every_output_under_its_word) {
   std::vector<std::string> words;
   for (const OutputEntry& entry : output_table()) words.push_back(entry.word);
-  EXPECT_EQ(words,
-            (std::vector<std::string>{"attenuation", "backbone", "energy", "footprint", "history", "joint", "loop",
-                                      "modes", "momentum", "resultant", "srs", "srs_field", "superelement", "vtk"}));
+  EXPECT_EQ(words, (std::vector<std::string>{"attenuation", "backbone", "energy", "footprint", "history", "joint",
+                                             "loop", "modes", "momentum", "resultant", "ringdown", "srs", "srs_field",
+                                             "superelement", "vtk"}));
   EXPECT_EQ(output_entry("srs")->display.as, Display::As::spectrum);
   EXPECT_EQ(output_entry("vacuum"), nullptr);
 }
