@@ -233,17 +233,18 @@ void warn_of_overtightened(const Problem& problem, const BoltSummary& bolt) {
 
 void warn_of_margins(const BoltSummary& bolt) {
   if (!bolt.margins) return;
+  constexpr double used_up = 1e-3;  // friction and contact carry no more than that
   std::string negative;
   double least = 0.0;
   for (const auto& [against, margin] : {std::pair("proof", std::optional(bolt.margins->against_proof(bolt.tightened))),
                                         {"slip", bolt.margins->slip},
                                         {"separation", bolt.margins->against_separation()}})
-    if (margin && *margin < 0.0) {
+    if (margin && *margin < used_up) {
       negative += fmt::format("{}{} {:.2f}", negative.empty() ? "" : ", ", against, *margin);
       least = std::min(least, *margin);
     }
   if (!negative.empty())
-    warn(fmt::format("bolt '{}' has negative margins: {}", bolt.name, negative),
+    warn(fmt::format("bolt '{}' has {}: {}", bolt.name, least < 0.0 ? "negative margins" : "no margin left", negative),
          {"margins of bolts", -least, "'" + bolt.name + "'"});
 }
 

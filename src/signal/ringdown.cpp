@@ -77,6 +77,7 @@ Ringdown ring_down(const EvenStretch& signal, double from, double to) {
     // carrier's.
     const Complex rate = change / z;
     const double omega = rate.imag() + 2.0 * pi * middle, natural = std::hypot(omega, rate.real());
+    if (omega < 2.0 * pi * from || omega > 2.0 * pi * to) continue;  // what leaks in from outside the band
     const double amplitude = 2.0 * std::abs(z) / window.sum / window.response(rate, signal.dt);
     if (!found.amplitude.empty() && !(amplitude >= least * found.amplitude.front())) break;
     found.time.push_back(signal.time(k));

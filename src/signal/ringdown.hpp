@@ -18,7 +18,8 @@ double ringdown_window(double from, double to);
 
 // Of what a signal has in a band (Hz), from one half window after its start to one before its end, or until the
 // amplitude is a thousandth of the first. A single vibration that decays exponentially is found exactly, anywhere in
-// the band. Empty where the signal is shorter than a window. Throws InputError unless 0 < from < to <= 3 from and `to`
+// the band; where a stronger one outside the band drowns it there is no entry. Empty where the signal is shorter than a
+// window. Throws InputError unless 0 < from < to <= 3 from and `to`
 // is below half the sampling rate.
 Ringdown ring_down(const EvenStretch& signal, double from, double to);
 

@@ -173,8 +173,11 @@ bool take_up_motions(const StepModel& model, State& state) {
   return ranks::any(has_changed);
 }
 
-Points start_velocity(const Substructure& body) {
-  return body.mesh->inside->rigid_motion(body.mesh->nodes, body.velocity, Vec3::Zero());
+// Of the problem, not of the bodies, which members of an ensemble share.
+Points start_velocity(const StepModel& model, int piece) {
+  const CutPiece& own = model.cut->piece(piece);
+  const Vec3& velocity = model.problem->substructures[static_cast<size_t>(own.part)]->velocity;
+  return own.body->mesh->inside->rigid_motion(own.body->mesh->nodes, velocity, Vec3::Zero());
 }
 
 bool are_thrown_apart(const Problem& problem) {
@@ -213,7 +216,7 @@ void start_step(StepModel& model, State& state) {
   for (const int i : model.here) {
     Points& velocity = state.velocity[i];
     if (is_static) velocity.setZero();
-    if (first_dynamic) velocity += start_velocity(*model.cut->piece(i).body);
+    if (first_dynamic) velocity += start_velocity(model, i);
   }
   // Superelements alone feel what stops or moves others of their rows.
   const bool may_jump =

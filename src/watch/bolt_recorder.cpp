@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
-#include "ranks/ranks.hpp"
 
 namespace dygita {
 
@@ -33,16 +32,6 @@ double friction_in(const Law& law) {
   return 0.0;
 }
 
-// f(index, state) of every point that this rank keeps.
-template <class Function>
-void for_each_point(const Instant& instant, int s, Function&& f) {
-  const std::vector<LawState>& points = instant.state.surfaces[static_cast<size_t>(s)].points;
-  if (instant.distant)
-    for (const int i : instant.distant->here(s)) f(i, points[static_cast<size_t>(i)]);
-  else
-    for (size_t i = 0; i < points.size(); ++i) f(static_cast<int>(i), points[i]);
-}
-
 }  // namespace
 
 BoltRecorder::BoltRecorder(const Problem& problem) {
@@ -56,6 +45,7 @@ BoltRecorder::BoltRecorder(const Problem& problem) {
     bolts_.emplace_back();
     bolts_.back().name = interface->name;
     ratings_.emplace_back();
+    is_whole_.push_back(1);
     for (size_t i_step = 0; i_step < problem.steps.size(); ++i_step)
       if (const auto now = tightened(*problem.steps[i_step], interface)) {
         last_tightening_ = std::max(last_tightening_, static_cast<int>(i_step));
@@ -64,6 +54,7 @@ BoltRecorder::BoltRecorder(const Problem& problem) {
         bolts_.back().margins.emplace();
         bolts_.back().margins->proof_load = now->by.share * now->by.rating->proof_load;
         bolts_.back().margins->safety = now->by.rating->safety;
+        is_whole_.back() = now->by.share >= 1.0;
       }
   }
   now_.resize(bolts_.size());
@@ -105,9 +96,11 @@ void BoltRecorder::find_clamped(const Instant& start) {
   for (const auto& [surface, bolts] : bolts_of) {
     const Surface& contact = (*start.model.surfaces)[static_cast<size_t>(surface)];
     const size_t first = clamped_.size(), n = static_cast<size_t>(contact.n_points());
-    for (const auto& [b, axis] : bolts)
-      clamped_.push_back(
-          {b, surface, friction_in(contact.declared_law()), ratings_[b]->safety, std::vector<char>(n, 0)});
+    for (const auto& [b, axis] : bolts) {
+      // Of a part of a bolt, its mirror images cancel some of the shear, which is not told apart: no slip margin.
+      const double friction = is_whole_[b] ? friction_in(contact.declared_law()) : 0.0;
+      clamped_.push_back({b, surface, friction, ratings_[b]->safety, std::vector<char>(n, 0)});
+    }
     for (size_t i = 0; i < n; ++i) {
       size_t nearest = 0;
       double least = std::numeric_limits<double>::infinity();
@@ -129,15 +122,15 @@ void BoltRecorder::follow_clamped(const Instant& instant) {
   std::vector<double> sums(4 * clamped_.size(), 0.0);  // N: pressed, and shear along x, y, z
   for (size_t c = 0; c < clamped_.size(); ++c) {
     const Facing& facing = (*instant.model.surfaces)[static_cast<size_t>(clamped_[c].surface)].facing;
-    for_each_point(instant, clamped_[c].surface, [&](int i, const LawState& point) {
-      if (!clamped_[c].has_point[static_cast<size_t>(i)]) return;
-      const Vec3 n = facing.normals.col(i);
-      const double normal = point.force.dot(n);
+    const std::vector<LawState>& points = instant.surface(clamped_[c].surface).points;
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (!clamped_[c].has_point[i]) continue;
+      const Vec3 n = facing.normals.col(static_cast<Eigen::Index>(i));
+      const double normal = points[i].force.dot(n);
       sums[4 * c] -= normal;
-      Eigen::Map<Vec3>(&sums[4 * c + 1]) += point.force - normal * n;
-    });
+      Eigen::Map<Vec3>(&sums[4 * c + 1]) += points[i].force - normal * n;
+    }
   }
-  if (!ranks::is_alone()) sums = ranks::sums(sums);
   for (size_t c = 0; c < clamped_.size(); ++c) {
     Clamped& own = clamped_[c];
     BoltMargins& margins = *bolts_[own.bolt].margins;
@@ -147,7 +140,8 @@ void BoltRecorder::follow_clamped(const Instant& instant) {
     const double left = own.pressed - own.least;
     if (!margins.clamp || left * *margins.clamp > (*margins.clamp - *margins.least_clamp) * own.pressed)
       margins.clamp = own.pressed, margins.least_clamp = own.least;
-    if (!(shear > 1e-9 * std::abs(own.pressed)) || own.friction == 0.0) continue;
+    constexpr double next_to_none = 1e-6;
+    if (!(shear > next_to_none * std::abs(own.pressed)) || own.friction == 0.0) continue;
     const double held = std::max(0.0, pressed - (own.safety - 1.0) * std::max(0.0, own.pressed - pressed));
     const double slip = own.friction * held / (own.safety * shear) - 1.0;
     margins.slip = std::min(margins.slip.value_or(slip), slip);

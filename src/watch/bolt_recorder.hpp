@@ -41,6 +41,7 @@ class BoltRecorder {
   std::vector<Held> now_, before_, tightened_;    // of each bolt; `before_`: an increment earlier
   std::vector<std::pair<double, double>> swing_;  // N, lowest and highest in the last tenth of the step
   std::vector<std::optional<BoltRating>> ratings_;
+  std::vector<char> is_whole_;  // is all of the bolt in the model?
   std::vector<Clamped> clamped_;
   int last_tightening_ = -1;  // the last step that tightens some bolt
   bool is_dynamic_ = false;   // some dynamic step has begun

@@ -73,6 +73,17 @@ TEST(SharedOperators, leave_each_member_as_it_is_alone) {
   expect_members_alone([](const Numbers& numbers) { return pressed_cubes(numbers); }, 4);
 }
 
+TEST(SharedOperators, leave_members_their_own_velocities) {
+  expect_members_alone(
+      [](const Numbers& numbers) {
+        Problem problem = pressed_cubes(numbers);
+        for (const SubstructurePtr& part : problem.substructures)
+          std::const_pointer_cast<Substructure>(part)->velocity = Vec3(0.0, 0.0, -1e-7 * numbers.peak);
+        return problem;
+      },
+      4);
+}
+
 TEST(SharedOperators, leave_members_with_cut_parts_as_they_are_alone) {
   expect_members_alone(
       [](const Numbers& numbers) {

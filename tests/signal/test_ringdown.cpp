@@ -73,6 +73,13 @@ TEST(RingdownOfASignal, of_dry_friction_has_its_damping_at_each_amplitude) {
   EXPECT_LT(found.amplitude.back(), 0.3 * found.amplitude.front());
 }
 
+TEST(RingdownOfASignal, is_empty_where_only_what_leaks_in_vibrates) {
+  const EvenStretch signal =
+      sampled(3.0, 1e-3, [](double t) { return std::exp(-0.5 * t) * std::sin(2 * pi * 20 * t); });
+  EXPECT_TRUE(ring_down(signal, 30.0, 50.0).time.empty());
+  EXPECT_TRUE(ring_down(signal, 7.0, 13.0).time.empty());
+}
+
 TEST(RingdownOfASignal, is_empty_of_a_short_one_and_refuses_bands_that_make_no_sense) {
   const EvenStretch signal = sampled(0.3, 1e-3, [](double t) { return std::sin(2 * pi * 20 * t); });
   EXPECT_TRUE(ring_down(signal, 19.0, 21.0).time.empty());

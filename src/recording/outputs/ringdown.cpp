@@ -96,9 +96,11 @@ class RingdownOutput final : public Output {
     }
     const Ringdown found = ring_down(record_of(end), band[0], band[1]);
     if (found.time.empty()) {
-      findings.lines = {fmt::format(
-          "ring-down '{}': NOT MADE: a band from {:.5g} to {:.5g} Hz requires a record of {:.3g} s, which vibrates",
-          name, band[0], band[1], 2.0 * ringdown_window(band[0], band[1]))};
+      findings.lines = {
+          fmt::format("ring-down '{}': NOT MADE: nothing vibrates between {:.5g} and {:.5g} Hz, or what does outside "
+                      "is stronger, or the "
+                      "record is shorter than {:.3g} s",
+                      name, band[0], band[1], 2.0 * ringdown_window(band[0], band[1]))};
       return;
     }
     table.columns = {found.time, found.amplitude, found.frequency, found.damping};
