@@ -66,7 +66,8 @@ std::string check_report(const Problem& problem) {
   std::set<const StoredMatrices*> known;
   for (const Body& body : bodies)
     if (known.insert(body.matrices.get()).second) matrices += body.matrices->bytes();
-  if (at_most > 0.0) text += fmt::format("  about {:.3g} MB of memory on one thread, within a factor of two\n", at_most / 1e6);
+  if (at_most > 0.0)
+    text += fmt::format("  about {:.3g} MB of memory on one thread, within a factor of two\n", at_most / 1e6);
   return text + fmt::format(
                     "  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, "
                     "{:.4g} MB for "
