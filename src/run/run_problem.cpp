@@ -16,7 +16,7 @@
 #include "files/bolt_table.hpp"
 #include "files/files.hpp"
 #include "files/replacement.hpp"
-#include "latin/latin.hpp"
+#include "marching/solve.hpp"
 #include "model/own_files.hpp"
 #include "numerics/blas_buffers.hpp"
 #include "recording/collector.hpp"

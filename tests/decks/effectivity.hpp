@@ -7,7 +7,7 @@
 #include <map>
 
 #include "decks/engine.hpp"
-#include "latin/latin.hpp"
+#include "marching/solve.hpp"
 #include "mesh/face_nodes.hpp"
 #include "recording/collector.hpp"
 #include "step/step_model.hpp"

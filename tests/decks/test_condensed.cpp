@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "decks/deck_prints.hpp"
-#include "latin/latin.hpp"
+#include "marching/solve.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/lowest_modes.hpp"
 #include "reduction/craig_bampton.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "latin/latin.hpp"
+#include "marching/solve.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "step/blocks.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/progress.hpp"
-#include "latin/latin.hpp"
+#include "marching/solve.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "step/blocks.hpp"

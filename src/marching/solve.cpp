@@ -4,9 +4,9 @@
 
 #include "base/progress.hpp"
 #include "latin/search_direction.hpp"
-#include "latin/shared_trail.hpp"
-#include "latin/sharing.hpp"
-#include "latin/step_run.hpp"
+#include "marching/shared_trail.hpp"
+#include "marching/sharing.hpp"
+#include "marching/step_run.hpp"
 #include "numerics/factor.hpp"
 #include "ranks/machine_copies.hpp"
 #include "step/step_ends.hpp"

@@ -6,7 +6,7 @@
 
 #include "base/fair_shares.hpp"
 #include "exchange/direct_links.hpp"
-#include "latin/force_mixing.hpp"
+#include "marching/force_mixing.hpp"
 #include "pieces/explicit_piece.hpp"
 #include "ranks/neighbours.hpp"
 #include "step/point_record.hpp"

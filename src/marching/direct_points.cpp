@@ -1,4 +1,4 @@
-#include "latin/direct_points.hpp"
+#include "marching/direct_points.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <map>
 
 #include "base/parallel.hpp"
-#include "latin/direct_points.hpp"
 #include "law/law.hpp"
+#include "marching/direct_points.hpp"
 
 namespace dygita {
 

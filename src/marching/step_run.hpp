@@ -1,8 +1,8 @@
 // One step from its start to its end: its data, its iteration, its books.
 #pragma once
 
-#include "latin/increments.hpp"
-#include "latin/latin.hpp"
+#include "marching/increments.hpp"
+#include "marching/solve.hpp"
 
 namespace dygita {
 

@@ -1,4 +1,4 @@
-#include "latin/step_run.hpp"
+#include "marching/step_run.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // One time step: forward once, iterate on the interfaces alone, backward once.
-#include "latin/increments.hpp"
+#include "marching/increments.hpp"
 
 namespace dygita {
 

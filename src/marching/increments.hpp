@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "latin/follow.hpp"
-#include "latin/step_books.hpp"
+#include "marching/follow.hpp"
+#include "marching/step_books.hpp"
 
 namespace dygita {
 

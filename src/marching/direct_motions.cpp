@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "exchange/direct_links.hpp"
-#include "latin/direct_points.hpp"
+#include "marching/direct_points.hpp"
 
 namespace dygita {
 

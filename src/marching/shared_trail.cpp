@@ -1,4 +1,4 @@
-#include "latin/shared_trail.hpp"
+#include "marching/shared_trail.hpp"
 
 #include "ranks/ranks.hpp"
 

@@ -1,4 +1,4 @@
-#include "latin/cut_pulls.hpp"
+#include "marching/cut_pulls.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "latin/step_books.hpp"
+#include "marching/step_books.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

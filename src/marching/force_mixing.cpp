@@ -1,4 +1,4 @@
-#include "latin/force_mixing.hpp"
+#include "marching/force_mixing.hpp"
 
 #include "numerics/dense.hpp"
 

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "base/team.hpp"
-#include "latin/latin.hpp"
 #include "law/law.hpp"
+#include "marching/solve.hpp"
 #include "pieces/central_differences.hpp"
 #include "pieces/longest_step.hpp"
 #include "step/blocks.hpp"

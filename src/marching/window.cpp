@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "latin/increments.hpp"
+#include "marching/increments.hpp"
 
 namespace dygita {
 

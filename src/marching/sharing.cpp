@@ -1,4 +1,4 @@
-#include "latin/sharing.hpp"
+#include "marching/sharing.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

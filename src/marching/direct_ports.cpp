@@ -1,6 +1,6 @@
 // What the sides of direct points move with: a node each, a group of them, or nodes of a face that does not match.
 #include "base/error.hpp"
-#include "latin/direct_points.hpp"
+#include "marching/direct_points.hpp"
 
 namespace dygita {
 

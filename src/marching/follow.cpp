@@ -1,4 +1,4 @@
-#include "latin/follow.hpp"
+#include "marching/follow.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "latin/coarse_correction.hpp"
-#include "latin/latin.hpp"
 #include "latin/search_direction.hpp"
 #include "latin/step_settings.hpp"
+#include "marching/solve.hpp"
 #include "step/blocks.hpp"
 
 namespace dygita {

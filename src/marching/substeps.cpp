@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "fem/mass.hpp"
-#include "latin/cut_pulls.hpp"
-#include "latin/direct_points.hpp"
-#include "latin/increments.hpp"
+#include "marching/cut_pulls.hpp"
+#include "marching/direct_points.hpp"
+#include "marching/increments.hpp"
 
 namespace dygita {
 

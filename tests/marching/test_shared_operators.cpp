@@ -1,8 +1,8 @@
 // Members of an ensemble over what the first of them has made: to the bit what each is by itself.
 #include <gtest/gtest.h>
 
-#include "latin/latin.hpp"
 #include "law/law.hpp"
+#include "marching/solve.hpp"
 #include "step/blocks.hpp"
 
 namespace dygita {
