@@ -144,8 +144,9 @@ std::string several_levels(const Substructure& part, const Vec3& normal, const s
   std::vector<Level> levels;
   for (auto& [number, surface] : surfaces) {
     surface.at = normal.dot(surface.moment) / surface.area;
-    const auto known = std::find_if(levels.begin(), levels.end(),
-                                    [&](const Level& level) { return std::abs(level.at - surface.at) <= same; });
+    const auto known = std::find_if(levels.begin(), levels.end(), [at = surface.at, same](const Level& level) {
+      return std::abs(level.at - at) <= same;
+    });
     Level& level = known == levels.end() ? levels.emplace_back(Level{surface.at, 0.0, Vec3::Zero(), 0}) : *known;
     level.area += surface.area;
     level.moment += surface.moment;
