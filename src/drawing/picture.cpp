@@ -14,6 +14,7 @@ namespace dygita {
 namespace {
 
 constexpr double picture_margin = 24.0;  // px
+constexpr double isometric = 35.264;     // degrees
 
 // Along which axis something is long and thin; -1: it is not.
 int long_axis(const Box& box) {
@@ -34,16 +35,6 @@ Mat3 turned(int right_hand, int up, double azimuth, double elevation) {
   return axes;
 }
 
-// Pixels across and down, and depth towards the reader.
-Points projected(const Points& x, const View& view) {
-  Points p = view.axes * (x.colwise() - view.centre);
-  const double pixels = (view.width - 2.0 * picture_margin) / view.size;
-  p.row(0) = (0.5 * view.width + pixels * p.row(0).array()).matrix();
-  p.row(1) = (0.5 * view.height - pixels * p.row(1).array()).matrix();
-  p.row(2) *= pixels;
-  return p.cwiseMax(-1e6).cwiseMin(1e6);
-}
-
 void draw(ItemBuffer& buffer, const Skin& skin, const Points& p, int i_facet) {
   const SkinFacet& f = skin.facets[i_facet];
   for (int k = 2; k < f.n_corners; ++k) {
@@ -62,11 +53,6 @@ ItemBuffer buffer_of(const Skin& skin, const View& view, const Points& p) {
   for (int f = 0; f < static_cast<int>(skin.facets.size()); ++f)
     if (faces_reader(skin, view, f)) draw(buffer, skin, p, f);
   return buffer;
-}
-
-std::array<int, 2> tenths(const Points& p, int node) {
-  return {static_cast<int>(std::lround(10.0 * std::clamp(p(0, node), -1e4, 1e4))),
-          static_cast<int>(std::lround(10.0 * std::clamp(p(1, node), -1e4, 1e4)))};
 }
 
 // Edges beside a facet that is seen, not hidden themselves where it matters: at their middle.
@@ -99,34 +85,6 @@ size_t n_parts_seen(const std::vector<SubstructurePtr>& parts, const View& view)
 
 int n_seen(const std::vector<char>& seen) { return static_cast<int>(std::count(seen.begin(), seen.end(), 1)); }
 
-View view_from(const Box& box, double turn) {
-  View view;
-  view.centre = 0.5 * (box.low + box.high);
-  const int longest = long_axis(box);
-  view.axes =
-      longest >= 0 ? turned(longest, longest == 2 ? 1 : 2, 20.0 + turn, 22.0) : turned(0, 2, 45.0 + turn, 35.264);
-  // The eight corners of the box fit in.
-  Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner(i & 1 ? box.high[0] : box.low[0], i & 2 ? box.high[1] : box.low[1],
-                      i & 4 ? box.high[2] : box.low[2]);
-    const Vec3 p = view.axes * (corner - view.centre);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double across = std::max(high[0] - low[0], 1e-9), up = std::max(high[1] - low[1], 1e-9);
-  // Deformed shapes need some room.
-  view.size = 1.08 * across;
-  double height = up / view.size * (view.width - 2.0 * picture_margin) + 2.0 * picture_margin + 16.0;
-  constexpr double highest = 560.0;
-  if (height > highest) {
-    view.size *= (height - 2.0 * picture_margin) / (highest - 2.0 * picture_margin);
-    height = highest;
-  }
-  view.height = static_cast<int>(std::lround(height));
-  return view;
-}
-
 // Of the diagonals of the parts' boxes.
 double largest_part(const std::vector<SubstructurePtr>& parts) {
   double largest = 0.0;
@@ -144,7 +102,7 @@ std::pair<View, bool> clearest_view_of(const std::vector<SubstructurePtr>& parts
   size_t most = 0;
   for (const double turn : {0.0, 180.0, 90.0, 270.0}) {
     if (long_axis(box) >= 0 && turn != 0.0 && turn != 180.0) continue;  // not along it
-    const View view = view_from(box, turn);
+    const View view = view_of_side(parts, turn, isometric);
     const size_t n = n_parts_seen(parts, view);
     if (turn == 0.0 || n > most) {
       most = n;
@@ -157,7 +115,54 @@ std::pair<View, bool> clearest_view_of(const std::vector<SubstructurePtr>& parts
 
 }  // namespace
 
-View whole_view_of(const std::vector<SubstructurePtr>& parts) { return view_from(extent_of(parts), 0.0); }
+View view_of_side(const std::vector<SubstructurePtr>& parts, double turn, double elevation) {
+  View view;
+  const int longest = long_axis(extent_of(parts));
+  const double shallow = std::copysign(22.0, elevation);
+  view.axes =
+      longest >= 0 ? turned(longest, longest == 2 ? 1 : 2, 20.0 + turn, shallow) : turned(0, 2, 45.0 + turn, elevation);
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const SubstructurePtr& part : parts) {
+    const Points p = view.axes * (part->mesh->nodes.colwise() + part->place);
+    low = low.cwiseMin(p.rowwise().minCoeff());
+    high = high.cwiseMax(p.rowwise().maxCoeff());
+  }
+  view.centre = view.axes.transpose() * (0.5 * (low + high));
+  const double across = std::max(high[0] - low[0], 1e-9), up = std::max(high[1] - low[1], 1e-9);
+  // Deformed shapes need some room.
+  view.size = 1.08 * across;
+  double height = 1.08 * up / view.size * (view.width - 2.0 * picture_margin) + 2.0 * picture_margin + 16.0;
+  constexpr double highest = 560.0;
+  if (height > highest) {
+    view.size *= (height - 2.0 * picture_margin) / (highest - 2.0 * picture_margin);
+    height = highest;
+  }
+  view.height = static_cast<int>(std::lround(height));
+  return view;
+}
+
+Points projected(const Points& x, const View& view) {
+  Points p = view.axes * (x.colwise() - view.centre);
+  const double pixels = (view.width - 2.0 * picture_margin) / view.size;
+  p.row(0) = (0.5 * view.width + pixels * p.row(0).array()).matrix();
+  p.row(1) = (0.5 * view.height - pixels * p.row(1).array()).matrix();
+  p.row(2) *= pixels;
+  return p.cwiseMax(-1e6).cwiseMin(1e6);
+}
+
+std::array<int, 2> tenths(const Points& p, int node) {
+  return {static_cast<int>(std::lround(10.0 * std::clamp(p(0, node), -1e4, 1e4))),
+          static_cast<int>(std::lround(10.0 * std::clamp(p(1, node), -1e4, 1e4)))};
+}
+
+bool is_seen(const std::vector<SubstructurePtr>& parts, const View& view, const Vec3& place, double tolerance) {
+  const Skin skin = make_skin(parts, view, {}, {}, 0.0);
+  const Points p = projected(place, view);
+  return buffer_of(skin, view, projected(skin.position, view))
+      .is_in_front(p(0, 0), p(1, 0), p(2, 0), tolerance * view.width);
+}
+
+View whole_view_of(const std::vector<SubstructurePtr>& parts) { return view_of_side(parts, 0.0, isometric); }
 
 View view_of(const std::vector<SubstructurePtr>& parts) {
   auto [view, shows_all] = clearest_view_of(parts);

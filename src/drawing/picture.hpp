@@ -43,6 +43,17 @@ View whole_view_of(const std::vector<SubstructurePtr>& parts);
 // The same from the side that hides the fewest parts, cut in half where one still cannot be seen.
 View view_of(const std::vector<SubstructurePtr>& parts);
 
+// From one side, the undeformed parts large in it: turned about the vertical (degrees, 0: from the front right), from
+// above or, negative, below.
+View view_of_side(const std::vector<SubstructurePtr>& parts, double turn, double elevation);
+
+// Pixels across and down, and depth towards the reader (3 x n), of places (m).
+Points projected(const Points& x, const View& view);
+std::array<int, 2> tenths(const Points& projected, int i);  // of a pixel
+
+// Do the undeformed parts leave a place in sight, or hide it by less than `tolerance` of the view's width?
+bool is_seen(const std::vector<SubstructurePtr>& parts, const View& view, const Vec3& place, double tolerance);
+
 // Deformed by `scale` times `displacement` (m, 3 x n_nodes each; empty: undeformed) with `values` at nodes (empty:
 // zero). Facets that others hide are left out; where more than `most_facets` are seen, nodes are merged until they are
 // fewer.

@@ -5,9 +5,11 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
+#include "drawing/close_up.hpp"
 #include "drawing/cut_plane.hpp"
 #include "drawing/joint_map.hpp"
 #include "drawing/picture.hpp"
+#include "model/extent.hpp"
 
 namespace dygita {
 
@@ -155,6 +157,79 @@ Json shapes(const Problem& problem, const RunResult& result) {
   return pictures;
 }
 
+// A place where the run came nearest to a limit.
+struct Limit {
+  std::string kind, name;  // "stress" of a part; "slip", "opening" of a contact
+  double value = 0.0;      // Pa, m
+  Vec3 place = Vec3::Zero();
+  int part = -1;  // drawn
+};
+
+double diagonal(const Problem& problem, int part) {
+  const Box box = extent_of(*problem.substructures[static_cast<size_t>(part)]);
+  return (box.high - box.low).norm();
+}
+
+// The smaller part of a contact, which its place is a larger share of.
+int smaller_part(const Problem& problem, const std::vector<int>& parts) {
+  return *std::min_element(parts.begin(), parts.end(),
+                           [&](int a, int b) { return diagonal(problem, a) < diagonal(problem, b); });
+}
+
+// The largest slip and opening, of the motion where there is one, else of the end of the static steps.
+std::vector<Limit> limits_of_contacts(const Problem& problem, const RunResult& result) {
+  constexpr double least = 1e-9;  // m, that is worth a picture
+  Limit slip{"slip", "", least, Vec3::Zero(), -1}, opening{"opening", "", least, Vec3::Zero(), -1};
+  const auto raise = [&](Limit& limit, const ContactSummary& contact, double value, const Vec3& place) {
+    if (value > limit.value) limit = {limit.kind, contact.name, value, place, smaller_part(problem, contact.parts)};
+  };
+  for (const ContactSummary& contact : result.contacts) {
+    if (contact.steps.empty() || contact.parts.empty()) continue;
+    const auto is_static = [&](const ContactStep& step) {
+      return problem.steps[static_cast<size_t>(step.step)]->is_static;
+    };
+    const bool rests = std::all_of(contact.steps.begin(), contact.steps.end(), is_static);
+    for (const ContactStep& step : contact.steps) {
+      if (rests ? &step != &contact.steps.back() : is_static(step)) continue;
+      raise(slip, contact, step.slip.value_or(0.0), step.slip_at);
+      raise(opening, contact, step.opening, step.opening_at);
+    }
+  }
+  std::vector<Limit> limits;
+  for (const Limit& limit : {slip, opening})
+    if (limit.part >= 0) limits.push_back(limit);
+  return limits;
+}
+
+Json limits(const Problem& problem, const RunResult& result) {
+  const StressedPart& stressed = result.scenes->stressed;
+  std::vector<Limit> wanted = limits_of_contacts(problem, result);
+  for (const PartStress& peak : result.stresses)
+    if (peak.part == stressed.part)
+      wanted.insert(wanted.begin(), {"stress", problem.substructures[static_cast<size_t>(peak.part)]->name,
+                                     peak.von_mises, peak.place, peak.part});
+  Json list = Json::array();
+  for (const Limit& limit : wanted) {
+    const bool is_stress = limit.kind == "stress";
+    const CloseUp close_up =
+        make_close_up(problem.substructures, limit.part, limit.place, is_stress ? stressed.von_mises : Vec());
+    Json json = json_of(close_up.picture);
+    json["around"] = close_up.around;
+    json["mark"] = close_up.mark;
+    json["kind"] = limit.kind;
+    json["name"] = limit.name;
+    json["part"] = limit.part;
+    json["value"] = limit.value;
+    json["place"] = {limit.place[0], limit.place[1], limit.place[2]};
+    if (is_stress) {
+      json["step"] = stressed.step;
+      json["time"] = stressed.time;
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json values(const std::vector<float>& of_points, const JointMap& map) {
   Json list = Json::array();
   for (const std::vector<int>& points : map.points) list.push_back(rounded(mean_of_cell(of_points, points)));
@@ -198,6 +273,7 @@ std::string scene_text(const Problem& problem, const RunResult& result) {
   Json joints = Json::array();
   for (const JointScenes& scene : scenes.joints) joints.push_back(joint(scene));
   Json json = {{"assembly", assembly(problem, scenes)}, {"joints", std::move(joints)}};
+  if (Json nearest = limits(problem, result); !nearest.empty()) json["limits"] = std::move(nearest);
   if (Json of_modes = shapes(problem, result); !of_modes.empty()) json["shapes"] = std::move(of_modes);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

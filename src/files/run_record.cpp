@@ -225,8 +225,10 @@ Json contacts(const Problem& problem, const RunResult& result) {
                        {"shear", step.shear},
                        {"closed", step.closed},
                        {"opening", step.opening},
+                       {"opening_at", {step.opening_at[0], step.opening_at[1], step.opening_at[2]}},
                        {"sliding", known(step.sliding)},
                        {"slip", known(step.slip)},
+                       {"slip_at", {step.slip_at[0], step.slip_at[1], step.slip_at[2]}},
                        {"friction_used", known(step.friction_used)}});
     list.push_back(
         {{"name", contact.name}, {"area", contact.area}, {"friction", contact.friction}, {"steps", std::move(steps)}});

@@ -19,6 +19,8 @@ std::string peaks_section(const RunFolder& run, const TimeAxis& time, const Repo
 std::string margins_section(const RunFolder& run);
 std::string computed_section(const RunFolder& run);
 std::string picture_section(const RunFolder& run);
+// Where a part is nearest to its yield, where a contact slips and opens most: each from near.
+std::string limits_section(const RunFolder& run);
 std::string motion_section(const RunFolder& run);
 std::string spectra_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request);
 std::string condensed_section(const RunFolder& run);

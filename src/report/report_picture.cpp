@@ -220,6 +220,21 @@ struct ColourScale {
   bool is_of_cells;  // bodies without cells have none
 };
 
+// Of a place seen from near (close_up.hpp): the parts around it, under the part that it is on; a ring around it.
+std::string around(const Json& picture) {
+  return picture.contains("around") ? lines(picture["around"], "stroke=\"#c4c4c4\" stroke-width=\"7\"") : "";
+}
+
+std::string mark(const Json& picture) {
+  if (!picture.contains("mark")) return "";
+  const double x = 0.1 * picture["mark"].at(0).get<double>(), y = 0.1 * picture["mark"].at(1).get<double>();
+  std::string rings;
+  for (const auto& [color, width] : {std::pair("#ffffff", 5), std::pair("#d00000", 2)})
+    rings += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"11\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
+                         coordinate(x), coordinate(y), color, width);
+  return rings;
+}
+
 std::string by_field(const Json& picture, const Json& parts, const std::string& title, const ColourScale& scale) {
   const std::vector<DrawnFacet> facets = facets_of(picture);
   const auto is_grey = [&](const DrawnFacet& facet) {
@@ -236,11 +251,16 @@ std::string by_field(const Json& picture, const Json& parts, const std::string& 
   const double width = number(picture, "width"), height = number(picture, "height"),
                largest = number(picture, "largest");
   std::string result = open_svg(width, height + 54.0, title);
-  result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
+  result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + around(picture) +
+            drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#222222\" stroke-width=\"6\" stroke-opacity=\"0.7\"") +
             lines(picture.at("outline"), "stroke=\"#777777\" stroke-width=\"8\" stroke-dasharray=\"40 30\"") +
-            "</g>\n" + axes_of(picture, height);
+            "</g>\n" + mark(picture) + axes_of(picture, height);
   const double bar = 22.0 * n_picture_levels, bar_left = 0.5 * (width - bar);
+  // What is around a part seen from near ends above the colours.
+  if (picture.contains("around"))
+    result += fmt::format("<rect x=\"0\" y=\"{}\" width=\"{}\" height=\"60\" fill=\"#ffffff\"/>\n",
+                          coordinate(height - 4.0), coordinate(width));
   for (int level = 0; level < n_picture_levels; ++level)
     result += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"22.5\" height=\"12\" fill=\"{}\"/>\n",
                           coordinate(bar_left + 22.0 * level), coordinate(height), color_of_level(level));
@@ -263,6 +283,18 @@ std::string by_field(const Json& picture, const Json& parts, const std::string& 
         "</text>\n",
         coordinate(width - 6.0));
   return result + "</svg>\n";
+}
+
+// A part in one colour, shaded.
+std::string by_light(const Json& picture, const std::string& title) {
+  const std::vector<DrawnFacet> facets = facets_of(picture);
+  std::vector<std::string> colors;
+  for (const DrawnFacet& facet : facets) colors.push_back(shaded(pale(series_color(0)), 10 * (facet.light / 10)));
+  const double height = number(picture, "height");
+  return open_svg(number(picture, "width"), height, title) +
+         "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + around(picture) +
+         drawn(facets, colors) + lines(picture.at("edges"), "stroke=\"#333333\" stroke-width=\"9\"") + "</g>\n" +
+         mark(picture) + axes_of(picture, height) + "</svg>\n";
 }
 
 // Runs of earlier versions were cut through the middle only.
@@ -294,7 +326,40 @@ std::string caption_of(const Json& picture, const Json& parts) {
   return caption + (scale > 0.0 ? " Dashed: undeformed." : "");
 }
 
+std::string caption_of_limit(const Json& limit, const Json& parts) {
+  const std::string kind = text(limit, "kind"), name = text(limit, "name");
+  const Json place = limit.value("place", Json::array());
+  std::string at;
+  for (const Json& x : place)
+    at += (at.empty() ? "" : ", ") + plain_number(1e3 * without_round_off(x.get<double>()), 4);
+  const auto part = static_cast<size_t>(number(limit, "part"));
+  if (kind == "stress") {
+    const double yield = part < parts.size() ? number(parts[part], "yield") : 0.0, peak = number(limit, "value");
+    return fmt::format(
+        "Smallest margin against yield, {:.3g} %: '{}', {} of {}, at ({}) mm. Colours: stress in step '{}', {}.",
+        100.0 * (yield / peak - 1.0), name, with_unit(peak, "Pa"), with_unit(yield, "Pa"), at, text(limit, "step"),
+        with_unit(number(limit, "time"), "s"));
+  }
+  return fmt::format("Largest {}: '{}', {}, at ({}) mm, on '{}'.", kind, name, with_unit(number(limit, "value"), "m"),
+                     at, part < parts.size() ? text(parts[part], "name") : "");
+}
+
 }  // namespace
+
+std::string limits_section(const RunFolder& run) {
+  if (!run.scenes().is_object() || !run.scenes().contains("limits")) return "";
+  std::vector<std::string> figures;
+  const Json parts = run.record().value("substructures", Json::array());
+  for (const Json& limit : run.scenes()["limits"]) {
+    const std::string caption = caption_of_limit(limit, parts);
+    figures.push_back(doubted_figure(run,
+                                     text(limit, "kind") == "stress"
+                                         ? by_field(limit, parts, caption, {"von Mises stress", "Pa", true})
+                                         : by_light(limit, caption),
+                                     caption));
+  }
+  return doubted_section(run, "Closest to its limits", html::row(figures));
+}
 
 std::string picture_of_shape(const Json& picture, const Json& parts, const std::string& title) {
   return by_field(picture, parts, title, {"displacement, of the largest", "", false});

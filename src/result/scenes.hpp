@@ -19,6 +19,14 @@ struct AssemblyScene {
   int missed = 0;                    // increments up to here, of all steps, that have not converged
 };
 
+// The part with the smallest margin against yield at the sampled instant of the smallest.
+struct StressedPart {
+  int part = -1;  // index in problem.substructures; -1: none has a yield
+  std::string step;
+  double time = 0.0;  // s, of the run
+  Vec von_mises;      // Pa, at its nodes
+};
+
 struct JointScene {
   std::string step;
   bool is_static = false;
@@ -43,6 +51,7 @@ struct JointScenes {
 struct Scenes {
   std::vector<AssemblyScene>
       assembly;  // the end of tightening, the instant of the largest strain energy in the dynamic steps
+  StressedPart stressed;
   std::vector<JointScenes> joints;
   SkinMotion motion;
 };

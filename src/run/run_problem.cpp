@@ -168,7 +168,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
   PartWatch parts(problem);
   PartFrames frames(problem, parts.views(), [&](const Frame& frame) { files->write(frame); });
   Collector collector(problem, parts, files ? FrameSink([&](const Frame& frame) { frames.begin(frame); }) : nullptr);
-  SceneRecorder scenes(problem, parts.views());
+  SceneRecorder scenes(problem, parts.views(), parts.stresses());
   JointSceneRecorder joint_scenes(problem);
   PenetrationWatch watch(problem);
   Observers here({&collector, &watch});

@@ -20,6 +20,13 @@ double friction_of(const Law& law) {
   return 0.0;
 }
 
+// The largest so far and where; of equal ones the first.
+void raise(double value, const Vec3& place, double& largest, Vec3& at) {
+  if (!(value > largest)) return;
+  largest = value;
+  at = place;
+}
+
 // f(index, state) of every point that this rank keeps.
 template <class Function>
 void for_each_here(const Instant& instant, int s, Function&& f) {
@@ -39,7 +46,9 @@ void ContactRecorder::find_contacts(const Instant& start) {
     // The faces of a wall follow each other.
     const bool is_next_face = surfaces[s].wall && s > 0 && surfaces[s - 1].wall == surfaces[s].wall;
     if (!is_next_face) {
-      contacts_.push_back({surfaces[s].name(), 0.0, friction_of(surfaces[s].declared_law()), {}});
+      contacts_.push_back({surfaces[s].name(), {}, 0.0, friction_of(surfaces[s].declared_law()), {}});
+      for (const int part : {surfaces[s].part_1, surfaces[s].part_2})
+        if (part >= 0) contacts_.back().parts.push_back(part);
       surfaces_.emplace_back();
     }
     contacts_.back().area += surfaces[s].facing.areas.sum();
@@ -69,8 +78,9 @@ void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Su
   if (instant.state.released[static_cast<size_t>(watched.surface)]) return;
   for_each_here(instant, watched.surface, [&](int i, const LawState& point) {
     const Start& start = watched.points[static_cast<size_t>(i)];
-    if (start.is_closed) step.opening = std::max(step.opening, law.opening(point));
-    if (step.slip) step.slip = std::max(*step.slip, (point.slip - start.slip).norm());
+    const Vec3 place = surface.facing.places.col(i);
+    if (start.is_closed) raise(law.opening(point), place, step.opening, step.opening_at);
+    if (step.slip) raise((point.slip - start.slip).norm(), place, *step.slip, step.slip_at);
     if (point.status == PointState::open) return;
     const Vec3 n = surface.facing.normals.col(i);
     const double normal = point.force.dot(n), area = surface.facing.areas[i];
@@ -124,14 +134,18 @@ void ContactRecorder::settle() {
   if (ranks::is_alone()) return;
   std::vector<double> own;
   for (const ContactSummary& contact : contacts_)
-    for (const ContactStep& step : contact.steps) own.insert(own.end(), {step.opening, step.slip.value_or(0.0)});
+    for (const ContactStep& step : contact.steps) {
+      own.insert(own.end(), {step.opening, step.slip.value_or(0.0)});
+      own.insert(own.end(), step.opening_at.begin(), step.opening_at.end());
+      own.insert(own.end(), step.slip_at.begin(), step.slip_at.end());
+    }
   for (const std::vector<double>& of_rank : ranks::of_all(own)) {
-    size_t i = 0;
+    const double* of = of_rank.data();
     for (ContactSummary& contact : contacts_)
       for (ContactStep& step : contact.steps) {
-        step.opening = std::max(step.opening, of_rank[i++]);
-        const double slip = of_rank[i++];
-        if (step.slip) step.slip = std::max(*step.slip, slip);
+        raise(of[0], Eigen::Map<const Vec3>(of + 2), step.opening, step.opening_at);
+        if (step.slip) raise(of[1], Eigen::Map<const Vec3>(of + 5), *step.slip, step.slip_at);
+        of += 8;
       }
   }
 }

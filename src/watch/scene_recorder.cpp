@@ -18,6 +18,7 @@ constexpr int samples_of_assembly = 40;  // a step
 void SceneRecorder::accept(const Instant& instant) {
   missed_ += !instant.converged;
   motion_.accept(instant);
+  if (stresses_.is_nearest_to_yield()) keep_assembly(instant, stressed_);
   const bool is_last = instant.increment + 1 == instant.model.step->n_increments();
   if (instant.is_static()) {
     if (is_last && shocked_.displacement.empty()) keep_assembly(instant, tightened_);
@@ -42,18 +43,28 @@ void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) 
   }
 }
 
+// Of what this rank has of a part; empty where it has nothing.
+Vec SceneRecorder::stress_of(int part, const AssemblyScene& scene) const {
+  const PartView& view = views_.of(part);
+  if (view.is_empty()) return {};
+  const auto i = static_cast<size_t>(part);
+  return von_mises(nodal_stress(view.mesh(), problem_.substructures[i]->material,
+                                without_growth(scene.displacement[i], growth_.at(&scene)[i], view.mesh().nodes)));
+}
+
+StressedPart SceneRecorder::gather_stressed() {
+  StressedPart stressed;
+  const int part = stresses_.nearest_to_yield();
+  if (part < 0 || stressed_.displacement.empty()) return stressed;
+  stressed = {part, stressed_.step, stressed_.time, stress_of(part, stressed_)};
+  gather_part(part, stressed_.displacement[static_cast<size_t>(part)], stressed.von_mises);
+  return stressed;
+}
+
 void SceneRecorder::gather(AssemblyScene& scene) const {
   scene.von_mises.resize(scene.displacement.size());
-  const std::vector<double>& growth = growth_.at(&scene);
-  parallel_for(static_cast<int>(scene.displacement.size()), [&](int i) {
-    const PartView& view = views_.of(i);
-    const Elastic& material = problem_.substructures[static_cast<size_t>(i)]->material;
-    if (!view.is_empty())
-      scene.von_mises[static_cast<size_t>(i)] =
-          von_mises(nodal_stress(view.mesh(), material,
-                                 without_growth(scene.displacement[static_cast<size_t>(i)],
-                                                growth[static_cast<size_t>(i)], view.mesh().nodes)));
-  });
+  parallel_for(static_cast<int>(scene.displacement.size()),
+               [&](int i) { scene.von_mises[static_cast<size_t>(i)] = stress_of(i, scene); });
   for (size_t i = 0; i < scene.displacement.size(); ++i)
     gather_part(static_cast<int>(i), scene.displacement[i], scene.von_mises[i]);
 }
@@ -90,6 +101,7 @@ void SceneRecorder::finish(std::vector<JointScenes> joints, RunResult& result) {
     gather(*scene);
     scenes->assembly.push_back(std::move(*scene));
   }
+  scenes->stressed = gather_stressed();
   scenes->motion = motion_.take();
   scenes->joints = std::move(joints);
   result.scenes = std::move(scenes);

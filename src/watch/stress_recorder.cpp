@@ -64,10 +64,17 @@ void StressRecorder::accept(const Instant& instant) {
     views_.take(instant);
   else
     hot_.take(instant);
+  double used = 0.0;
   for (Watched& watched : watched_) {
     if (view_of(watched).is_empty()) continue;
-    looks_at_all ? look_at_all(instant, watched) : look_at_hot(instant, watched);
+    if (looks_at_all)
+      used = std::max(used, look_at_all(instant, watched));
+    else
+      look_at_hot(instant, watched);
   }
+  if (looks_at_all) used = ranks::largest(used);
+  is_nearest_ = used > used_;
+  used_ = std::max(used, used_);
   ++n_looks_;
   n_at_all_ += looks_at_all;
   if (looks_at_all && !instant.is_static()) follow();
@@ -131,6 +138,17 @@ void StressRecorder::settle_above(Watched& watched) const {
   for (int look = 1; look < n; ++look) watched.peak.above = std::max(watched.peak.above, sums[look] / sums[0]);
 }
 
+int StressRecorder::nearest_to_yield() const {
+  int part = -1;
+  double used = 0.0;
+  for (const Watched& watched : watched_) {
+    if (!(watched.peak.von_mises / watched.peak.yield > used)) continue;
+    used = watched.peak.von_mises / watched.peak.yield;
+    part = watched.peak.part;
+  }
+  return part;
+}
+
 std::vector<PartStress> StressRecorder::take() {
   std::vector<PartStress> peaks;
   for (const Watched& watched : watched_) peaks.push_back(watched.peak);
@@ -148,7 +166,7 @@ void StressRecorder::meet(const Instant& instant, double stress, int node, Watch
   watched.met = {n_looks_, view.node(node)};
 }
 
-void StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
+double StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
   const PartView& view = view_of(watched);
   const Elastic& material = problem_.substructures[watched.peak.part]->material;
   const Points strained =
@@ -162,6 +180,7 @@ void StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
     if (stress[i] > watched.peak.yield) watched.above[static_cast<size_t>(owner)].back() += watched.volumes[i];
   }
   watched.largest = watched.largest.cwiseMax(stress);
+  return stress.size() > 0 ? stress.maxCoeff() / watched.peak.yield : 0.0;
 }
 
 void StressRecorder::look_at_hot(const Instant& instant, Watched& watched) {

@@ -21,6 +21,10 @@ class StressRecorder {
   // These are collective: each rank looks at the nodes that its pieces own.
   void accept(const Instant& instant);
   void settle();
+  // Has this instant's look at all nodes met a smaller margin than every one before? The same on all ranks.
+  bool is_nearest_to_yield() const { return is_nearest_; }
+  // The substructure with the smallest margin, once it has settled; -1: none has been looked at.
+  int nearest_to_yield() const;
   // In the order of the substructures; of all once it has settled.
   std::vector<PartStress> take();
 
@@ -43,7 +47,8 @@ class StressRecorder {
   };
 
   void prepare(const Instant& instant);
-  void look_at_all(const Instant& instant, Watched& watched);
+  // Returns the largest stress over yield.
+  double look_at_all(const Instant& instant, Watched& watched);
   void look_at_hot(const Instant& instant, Watched& watched);
   void follow();
   std::vector<int> hottest_of_all(const Watched& watched) const;
@@ -60,7 +65,8 @@ class StressRecorder {
   WatchedNodes hot_;
   long n_looks_ = 0;
   int n_at_all_ = 0;
-  bool is_ready_ = false, has_hot_ = false;
+  bool is_ready_ = false, has_hot_ = false, is_nearest_ = false;
+  double used_ = 0.0;  // of yield, the largest share at looks at all nodes
 };
 
 }  // namespace dygita

@@ -297,6 +297,10 @@ TEST(ReportRuns, watches_every_contact_without_being_asked) {
     EXPECT_EQ(step.opening, 0.0);
     EXPECT_FALSE(step.slip || step.sliding || step.friction_used);
   }
+  // Where: on the seat, 10 mm across, in the picture of the block, which is the smaller of the two.
+  EXPECT_NEAR(moving.slip_at[2], 10e-3, 1e-9);
+  EXPECT_LE((moving.slip_at.head<2>() - Eigen::Vector2d(5e-3, 5e-3)).cwiseAbs().maxCoeff(), 5e-3 + 1e-9);
+  EXPECT_NE(run.page.find("Largest slip: &#39;seat&#39;"), std::string::npos);
   EXPECT_NE(run.page.find("1 of 1 contacts slides as a whole"), std::string::npos);
   EXPECT_NE(run.page.find("Every contact (2)"), std::string::npos);
 }

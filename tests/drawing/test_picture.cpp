@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "drawing/close_up.hpp"
 #include "drawing/item_buffer.hpp"
 #include "drawing/joint_map.hpp"
 #include "drawing/picture.hpp"
@@ -48,6 +49,49 @@ Picture picture_of(const std::vector<SubstructurePtr>& parts, int most = 2500) {
 int of_part(const Picture& picture, int part) {
   return static_cast<int>(std::count_if(picture.facets.begin(), picture.facets.end(),
                                         [part](const PictureFacet& f) { return f.part == part; }));
+}
+
+TEST(CloseUp, looks_from_a_side_that_shows_the_place) {
+  const std::vector<SubstructurePtr> parts = {box(2, 4.0, Vec3(0, 0, -4)), box(2, 1.0)};  // the small one on the large
+  for (const Vec3& place : {Vec3(0.5, 0.5, 0.0), Vec3(0.5, 0.5, 1.0), Vec3(0.0, 0.5, 0.5), Vec3(0.5, 1.0, 0.5)}) {
+    const CloseUp close_up = make_close_up(parts, 1, place, {});
+    const Picture& picture = close_up.picture;
+    ASSERT_GT(picture.facets.size(), 0U);
+    for (const PictureFacet& facet : picture.facets) EXPECT_EQ(facet.part, 1);
+    EXPECT_GT(close_up.around.size(), 0U);
+    // The place is inside some facet that is drawn, which looks the way the place's face does.
+    const auto holds = [&](const PictureFacet& facet) {
+      bool left = false, right = false;
+      for (size_t k = 0; k < facet.corners.size(); ++k) {
+        const auto& a = facet.corners[k];
+        const auto& b = facet.corners[(k + 1) % facet.corners.size()];
+        const long turn = static_cast<long>(b[0] - a[0]) * (close_up.mark[1] - a[1]) -
+                          static_cast<long>(b[1] - a[1]) * (close_up.mark[0] - a[0]);
+        left |= turn > 20;
+        right |= turn < -20;
+      }
+      return !(left && right);
+    };
+    EXPECT_TRUE(std::any_of(picture.facets.begin(), picture.facets.end(), holds)) << place.transpose();
+  }
+  // From below for what is on the underside: the large box hides nothing, since it is drawn as lines.
+  const CloseUp under = make_close_up(parts, 1, Vec3(0.5, 0.5, 0.0), {}),
+                over = make_close_up(parts, 1, Vec3(0.5, 0.5, 1.0), {});
+  EXPECT_NE(under.picture.axes, over.picture.axes);
+}
+
+TEST(View, fits_what_is_turned_as_tightly_as_what_lies_along_the_axes) {
+  const SubstructurePtr straight = box(2, 1.0, Vec3::Zero(), 0.2);
+  auto mesh = std::make_shared<Mesh>(*straight->mesh);
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  mesh->nodes.topRows(2) = (Eigen::Matrix2d() << c, -s, s, c).finished() * straight->mesh->nodes.topRows(2).eval();
+  auto turned = std::make_shared<Substructure>(*straight);
+  turned->mesh = mesh;
+  // The diagonal of the plate is the most that can be seen of it from any side; the box around the turned one has more.
+  EXPECT_LE(whole_view_of({turned}).size, 1.08 * std::sqrt(2.04) + 1e-12);
+  const Points p = projected(mesh->nodes, whole_view_of({turned}));
+  EXPECT_NEAR(p.row(0).minCoeff() + p.row(0).maxCoeff(), whole_view_of({turned}).width, 1e-6);
+  EXPECT_NEAR(p.row(1).minCoeff() + p.row(1).maxCoeff(), whole_view_of({turned}).height, 1.0);
 }
 
 TEST(ItemBuffer, keeps_the_nearest) {
