@@ -66,12 +66,12 @@ def chapter(folder, measured):
     others = sorted((folder / "others").glob("*/measured.json"))
     told = [(part, how["machine"], how["date"], f"{how['minutes']:.1f}", "quick" if how["quick"] else "full") for part, how in measured.items() if part in found]
     return "\n\n".join([
-        "# Performance", "Written by `./run.sh bench`; every number and figure below is what that command measured. They are from one machine, and a shared machine "
-        "does not always give a program all of its processors. The two sides of a ratio ran one after the other in the same run; it holds for the processor named here.",
+        "# Performance", "Written by `./run.sh bench`; that command measured all numbers and figures below. They come from one machine, and a shared machine "
+        "does not always give a program all of its processors. The two sides of a ratio ran one after the other in the same command; it holds for the processor named here.",
         table(["part", "machine", "date", "minutes", "version"], told),
-        f"Of {len(goals)} goals {', '.join(f'{n} {words}' for words, n in counts.items() if n)}. Goals are those of the project's design.",
+        f"Of {len(goals)} goals {', '.join(f'{n} {words}' for words, n in counts.items() if n)}. Goals come from the project's design.",
         table(["goal", "measured", "", "what bounds it"], lines), *(section_of(part, folder, rows) for part, rows in found.items()),
-        *(["## On other processors", "The same parts of the bench, run there (`--up-to`, `--into`) in the minutes for which the machine was lent, so with fewer repetitions; its tables lie beside these (`performance/others/`)."] if others else []),
+        *(["## On other processors", "The same parts of the bench (`--up-to`, `--into`), with fewer repetitions since these machines were lent for minutes; their tables lie beside these (`performance/others/`)."] if others else []),
         *(other(record, verdicts) for record in others)]) + "\n"
 
 

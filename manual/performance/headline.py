@@ -154,11 +154,11 @@ def section(rows, study):
     first = rows[0]
     parts = [
         "## The shock against a linear run",
-        f"`{DECK}` at {first['dofs']:.0f} unknowns, {first['steps']:.0f} steps: contact, friction, yielding and prestress. The linear run is the cost for a user of the best linear "
-        f"code with the same mesh, material, support, load and time steps: one uncut body of {first['linear dofs']:.0f} unknowns, every joint bonded, factorised by "
+        f"`{DECK}` at {first['dofs']:.0f} unknowns, {first['steps']:.0f} steps: contact, friction, yielding and prestress. The linear run is the best that linear "
+        f"code does with the same mesh, material, support, load and time steps: one uncut body of {first['linear dofs']:.0f} unknowns, every joint bonded, factorised by "
         "CHOLMOD in its own analysis with METIS, one `cholmod_solve2` per step with kept workspace, OpenBLAS on one thread or on all, whichever is faster; "
-        "the evaluation of its loads is not timed. Runs alternate; ratios are of medians over pairs. In the first ratios factorisations are not timed in either; a factor of LATIN "
-        "is that of the static and of the dynamic step. Denormals are flushed in both.",
+        "the evaluation of its loads is not timed. Runs alternate; ratios are medians over pairs. The first ratios leave out factorisations; the factor of LATIN "
+        "is that of the static and of the dynamic step. Both flush denormals.",
         "![The shock and the linear run](performance/headline.svg)",
         "*automatic*: as LATIN chooses, here explicit substructures in the shock; *implicit*: iterated. *Whole run*: assembly, factors, prestress, shock and output "
         "of LATIN over factor and steps of the linear run.",

@@ -148,8 +148,8 @@ def section(rows):
     failed = [f"{r['scene']} at {r['dofs']:.0f}: {r['not converged']:.0f} steps" for r in rows if r["not converged"]]
     return "\n\n".join(filter(None, [
         "## Scenes", f"`{FLANGES}` and `{BLOCKS}` (a cube in 8 or 64 bricks, contact across its middle, CFL 1). *Steps*: of the shock as run here; "
-        "the largest take few. One thread and two ran in turn, five times or, where they are short, up to fifteen, and the fastest of each counts; so did two processes of one thread side by side, which is what the machine has for a second thread, and (*crowded*) two of two threads. *Factors*: of the last step, with interface operators. *Peak*: memory of the whole program. *Local stage*: nanoseconds an iteration "
-        "and three interface unknowns, where the shock is not explicit. *Processor had*: processor time over elapsed time and threads, where a thread that waits and would give way counts.",
+        "the largest take few. Runs on one and on two threads alternated, five times or, if short, up to fifteen, and the fastest of each counts. So did two single-thread processes side by side, which show what the machine offers a second thread, and (*crowded*) two processes of two threads. *Factors*: of the last step, with interface operators. *Peak*: memory of the whole program. *Local stage*: nanoseconds an iteration "
+        "and three interface unknowns, where the shock is not explicit. *Processor had*: processor time over elapsed time times threads; a thread that waits and would yield counts as busy.",
         "![Where the time goes](performance/scenes.svg)",
         table(["scene", "unknowns", "threads", "steps", "iterations per step", "static s", "shock s", "ms per step", "assembly and factor s", "all s", "two processes s", "crowded s", "factors MB",
                "peak MB", "local stage", "processor had"], cells),

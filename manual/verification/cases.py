@@ -116,7 +116,7 @@ YIELDING = Case(
         percent("perfect: opening", "opening at the end, perfect"),
         percent("hardening: the same, rms", "transmitted stress, hardening, rms of the incident"),
         percent("hardening: opening", "opening at the end, hardening"),
-    ], 1, compare=True, history="yielding_interface", note="dt = 0.5 h/c. The remaining error is at the front, which is smeared over some cells.")
+    ], 1, compare=True, history="yielding_interface", note="dt = 0.5 h/c. The remaining error is at the wave front, which is smeared over a few cells.")
 
 DAMPER = Case(
     "4b", "damper", "Damper", "decks/verification/damper.lua",
@@ -128,7 +128,7 @@ DAMPER = Case(
         percent("wave: energy dissipated", "energy dissipated"),
         percent("normal: velocity", "block, along the normal", 0.2, plotted=False, fitted=False),
         percent("tangent: velocity", "block, along a tangent", 0.2, plotted=False, fitted=False),
-    ], 1, compare=True, note="dt = 0.5 h/c. What is left is the front, which is blunt over some cells. The block is one cell: its error is that of dt.")
+    ], 1, compare=True, note="dt = 0.5 h/c. The remaining error is at the wave front, which is smeared over a few cells. The block is one cell, so its error is that of dt.")
 
 ROD = Case(
     "5", "rod_in_sleeve", "Prestressed rod in a sleeve", "decks/verification/rod_in_sleeve.lua",
@@ -276,7 +276,7 @@ FLANGES_APART = Case(
         Quantity("tetrahedra, spectrum above from the first, largest", "tetrahedra, spectrum above the joint, largest difference", "dB", 0.5, fitted=False),
         Quantity("tetrahedra, spectrum below from the first, mean", "tetrahedra, spectrum below the joint, mean difference", "dB", None, fitted=False),
     ], 1, x=[6, 4, 3],
-    note="Little passes the open joint: what is below it is uncertain by more than the difference, as the run itself says.")
+    note="Little passes the open joint: the spectrum below it is less certain than this difference, as the run itself reports.")
 
 FLANGES_TIED = Case(
     "9g", "flanges_tied", "Tied flanges with graded tetrahedra", "decks/verification/flanges_apart.lua",

@@ -20,16 +20,16 @@ def opening(summary, machine, quick):
     goals = sum(row[-1] != "no goal" for row in summary)
     return f"""# Verification
 
-Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}; every number and every figure below is from that run, unless a section says that it kept those of an earlier one.
+Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}. All numbers and figures come from that run, unless a section states that it keeps those of an earlier one.
 {machine}
 
-Of {goals} goals {goals - missed} are met and {missed} missed. *Measured* is at the size for which the goal is set (bold in the tables below), *order* is the
-slope of log error over log size over all sizes, by least squares. Errors of exact cases are relative to the exact solution, in the norm
-that the row names. Goals are those of the project's design; where it sets none the row says so.
+Of {goals} goals {goals - missed} are met and {missed} missed. *Measured* is the value at the size to which the goal applies (bold in the tables below). *Order* is the
+least-squares slope of log error against log size. Errors of exact cases are relative to the exact solution, in the norm
+that the row names. Goals come from the project's design; a row states where there is none.
 
 {table(exact_pages.HEADS, summary)}
 
-Not there yet: the measured Brake-Reuss beam (case 12).
+The measured Brake-Reuss beam has [a page of its own](measured-joints.md).
 
 Contents: [Exact cases](#exact-cases) · [Hard cases](#hard-cases) · [Speed against error](#speed-against-error) ·
 [Error estimates](#error-estimates)
@@ -69,16 +69,16 @@ def hard_section(outcomes):
 
 
 def speed_section(done, kept):
-    parts = ["## Speed against error", "Every solver and knob on the same machine in one run, one thread each: seconds of computation (processor "
-             "time of all phases of run.json except output; the median of three where below one) against the relative L2 error in time of the quantity of interest. "
+    parts = ["## Speed against error", "All solvers and settings ran on one machine in one command, on one thread each. Cost is the processor "
+             "time of all phases of run.json except output (the median of three runs below one second); error is the relative L2 error in time of the quantity of interest. "
              "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: fraction of "
-             "the critical step (*safety*) and stiffness of contact (*penalty*). Tables: the cheapest setting that reaches an error; `-`: none of "
-             "those tried does. All runs are in [speed.csv](verification/speed.csv)."]
+             "the critical step (*safety*) and stiffness of contact (*penalty*). The tables give the cheapest setting that reaches an error; `-`: none that was "
+             "tried does. All runs are in [speed.csv](verification/speed.csv)."]
     options = dict.fromkeys((r.solver, r.option) for _, rows, _ in done for r in rows if r.knob == "mesh")
     parts.append("Solvers: " + "; ".join(f"*{name}*: `{option}`" for name, option in options if option) + ".")
     if kept:
         knows = any(r.solver == "latin implicit" for _, rows, _ in done for r in rows)
-        parts.append("The runs of this section are of an earlier command, those of all others of the last one"
+        parts.append("The runs of this section come from an earlier command, all others from the last one"
                      + ("." if knows else "; in them `latin` integrated implicitly throughout."))
     parts.append(speed.balance(done))
     for scene, rows, told in done:
@@ -94,15 +94,15 @@ def speed_section(done, kept):
 
 
 def estimates_section(rows):
-    parts = ["## Error estimates", "Every run estimates its own errors (`figures` in run.json, the lines *estimated errors*). Here they are compared "
-             "with true ones in the same norm (energy, worst instant): of the iteration against a tolerance of 1e-11, of the time step against dt/16, "
-             "of the mesh against cells 8 times shorter. In the scenes of `tests/bench/scenes.lua` (static, frequency, amplitude, spectrum; "
-             "`build/release/tests/effectivity scenes`) frequencies and amplitudes are apart, against dt/4 and cells 3 times shorter: the time of the finer run is "
-             "stretched until its velocities are nearest, and what is left then is the amplitude's; for the frequencies, until "
-             "what both runs hold about the mean frequency that the run tells is nearest. Contact touches, opens or "
-             "slides in impedance, block on bar, pushed block, cap on posts, lapped plates and falling block, which the run says: there "
-             "a comparison of frequencies means little (what is left of the distance is as large as the motion in the "
-             "last), and the estimates are orders of magnitude."]
+    parts = ["## Error estimates", "Every run estimates its own errors (`figures` in run.json, the lines *estimated errors*). They are compared here "
+             "with true errors in the same norm (energy, worst instant): the iteration with a run at a tolerance of 1e-11, the time step with dt/16, "
+             "the mesh with cells 8 times shorter. The scenes of `tests/bench/scenes.lua` (static, frequency, amplitude, spectrum; "
+             "`build/release/tests/effectivity scenes`) separate frequency from amplitude, against dt/4 and cells 3 times shorter: the time axis of the finer run is "
+             "stretched until its velocities match best, and the remaining distance is the amplitude error; the frequency error is the stretch at which "
+             "both runs match best near the mean frequency that the run reports. In impedance, block on bar, pushed block, cap on posts, lapped plates and "
+             "falling block, contact closes, opens or slides, as the run reports: "
+             "a comparison of frequencies means little there (in the last the remaining distance is as large as the motion), "
+             "and the estimates are orders of magnitude."]
     if rows is None:
         return "\n\n".join(parts + ["This program has none, or its study was not built."])
     return "\n\n".join(parts + [effectivity.worst(rows), picture("effectivity", "Estimated against true errors"),

@@ -104,13 +104,13 @@ SCENES = [
     Scene("bouncing_bar", "Bouncing bar", "decks/verification/bouncing_bar.lua",
           [(f"{n}", {"n": n}) for n in (25, 50, 100, 200, 400)], of_cfl((4, 2, 1, 0.5, 0.25)), {"n": 100},
           bouncing_bar, ("contact pressure", "place of the lower end"), True,
-          "The contact has four nodes: what costs are the waves, and an explicit increment of latin, whose contact is exact, needs neither a solve nor a penalty. "
+          "The contact has four nodes, so the waves dominate the cost; an explicit increment of latin, whose contact is exact, needs neither a solve nor a penalty. "
           "The bar flies towards the wall, so its mass is tuned (eq. S15), which brings 1 % at a sixth of the cost of lumped mass. "
           "In L2 a jump of the pressure that is late or smeared costs the square root of its width, so only the mesh reduces this error."),
     Scene("two_bars", "Two bars", "decks/verification/two_bars.lua",
           [(f"{n}", {"n": n}) for n in (25, 50, 100, 200, 400)], of_cfl((4, 2, 1, 0.5, 0.25)), {"n": 100},
           two_bars, ("contact stress, but 5 % at each end", "contact stress with impact and release"), True,
-          "The contact has four nodes: what costs are the waves, and an explicit increment of latin, whose contact is exact, needs neither a solve nor a penalty. "
+          "The contact has four nodes, so the waves dominate the cost; an explicit increment of latin, whose contact is exact, needs neither a solve nor a penalty. "
           "Bars that meet at speed have their mass tuned, which pays at every level. "
           "With impact and release in the norm, the square root of their widths dominates."),
     Scene("yielding_beam", "Yielding beam", "decks/plastic_beam.lua",
