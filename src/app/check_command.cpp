@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "checks/check_problem.hpp"
 #include "files/files.hpp"
 #include "report/check_picture.hpp"
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "checks/check_problem.hpp"
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/integration.hpp"
-#include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 
 namespace dygita {
@@ -122,7 +124,7 @@ void doubt_friction(const Problem& problem, const DeckState& state) {
     check::doubt(problem, interface->origin,
                  fmt::format("{} has no 'friction' and slides freely, although tightened bolts rely on friction: "
                              "friction = 0 confirms this",
-                             check::describe(*interface)),
+                             describe(*interface)),
                  {"no friction", 0.0, "'" + interface->name + "'", true});
   }
 }

@@ -9,8 +9,8 @@
 #include "base/names.hpp"
 #include "deck/ensembles.hpp"
 #include "deck/part_results.hpp"
-#include "model/check.hpp"
 #include "model/output.hpp"
+#include "model/places.hpp"
 #include "result/hollow_result.hpp"
 
 namespace dygita {
@@ -95,7 +95,7 @@ int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& ke
     throw InputError(origin,
                      "output." + output->word + " provides no data to the deck\n    its frames are ParaView files");
   }
-  if (needs_motion(*output) && !check::has_dynamic_step(*result->problem)) {
+  if (needs_motion(*output) && !has_dynamic_step(*result->problem)) {
     push_object(L, {"data", key.path, output->name, -1, left_out(result, output)});
     return 1;
   }

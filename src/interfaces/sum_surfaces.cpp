@@ -8,8 +8,8 @@
 
 #include "law/law.hpp"
 #include "meeting/sum_facing.hpp"
-#include "model/check.hpp"
 #include "model/extent.hpp"
+#include "model/places.hpp"
 
 namespace dygita {
 
@@ -51,9 +51,9 @@ Surface surface_of_sum(const Problem& problem, const Support& sum) {
   std::map<int, Terms> terms;  // by part
   Vec3 place = Vec3::Zero();
   for (size_t i = 0; i < sum.on.size(); ++i) {
-    const Substructure& part = check::part_of(sum.on[i]);
+    const Substructure& part = part_of(sum.on[i]);
     Terms& own = terms[index_of(problem.substructures, &part)];
-    for (const auto& [node, share] : check::mean_of(sum.on[i])) {
+    for (const auto& [node, share] : mean_of(sum.on[i])) {
       own.add(*part.mesh->inside, node, scale * sum.factors[i] * share);
       place += share / static_cast<double>(sum.on.size()) * (part.mesh->nodes.col(node) + part.place);
     }

@@ -16,8 +16,9 @@
 #include "law/law.hpp"
 #include "meeting/touching.hpp"
 #include "mesh/face_nodes.hpp"
-#include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 
 namespace dygita {
 
@@ -76,7 +77,7 @@ void doubt_shift(const Problem& problem, const Surface& surface) {
       problem, surface.interface->origin,
       fmt::format("{} joins two faces of one size, {} and {}, of which {:.3g} % coincide: the second is shifted "
                   "by {}",
-                  check::describe(*surface.interface), face_1.label(), face_2.label(),
+                  describe(*surface.interface), face_1.label(), face_2.label(),
                   100.0 * surface.facing.areas.sum() / area_1, at(shift)));
 }
 
@@ -89,8 +90,8 @@ void doubt_distance(const Problem& problem, const Surface& surface) {
   const double largest = facing.gaps.cwiseAbs().maxCoeff();
   if (largest <= std::max(default_within(problem), 2.0 * facing.sagitta)) return;
   check::doubt(problem, interface.origin,
-               fmt::format("{} joins faces that are up to {:.3g} mm apart as if in contact{}",
-                           check::describe(interface), 1e3 * largest,
+               fmt::format("{} joins faces that are up to {:.3g} mm apart as if in contact{}", describe(interface),
+                           1e3 * largest,
                            interface.law->is_tie() ? "" : ": gap = \"geometry\" includes the distance in the law"),
                {"joined apart", largest, "'" + interface.name + "'"});
 }
@@ -105,18 +106,18 @@ int n_held(const std::vector<Facet>& facets, const std::vector<int>& held) {
 
 void doubt_held_side(const Problem& problem, const Surface& surface, const SubstructurePtr& part,
                      const std::vector<Facet>& facets) {
-  for (const SupportPtr& support : check::all_supports(problem)) {
+  for (const SupportPtr& support : all_supports(problem)) {
     if (support->kind->law()) continue;
     for (const FaceOrRegion& place : support->on) {
-      if (&check::part_of(place) != part.get()) continue;
-      const std::vector<int> held = check::nodes_at(place);
+      if (&part_of(place) != part.get()) continue;
+      const std::vector<int> held = nodes_at(place);
       const int n = n_held(facets, held);
       if (n == 0 || static_cast<int>(held.size()) == part->mesh->n_nodes()) continue;
       check::doubt(
           problem, surface.interface->origin,
           fmt::format(
               "{} of {} facets of {} are also under {} ({}): the interface cannot move what the support holds there", n,
-              facets.size(), check::describe(*surface.interface), check::describe(*support), check::label_of(place)));
+              facets.size(), describe(*surface.interface), describe(*support), label_of(place)));
     }
   }
 }
@@ -139,7 +140,7 @@ void doubt_pressed_bond(const Problem& problem, const Surface& surface, const Su
                        fmt::format("{} acts on {}, of whose {} facets {} {} bonded to '{}' by {}: the load has no "
                                    "effect between bonded faces; was another face intended?",
                                    load->path, face->label(), pressed.size(), n, n == 1 ? "is" : "are", other->name,
-                                   check::describe(*surface.interface)));
+                                   describe(*surface.interface)));
       }
 }
 
@@ -326,7 +327,7 @@ void doubt_points(const Problem& problem, const Surface& surface) {
       problem, surface.interface->origin,
       fmt::format(
           "{} has {} point{} only{}, since the facets of {} are large for its {:.4g} mm^2: refine the mesh there",
-          check::describe(*surface.interface), facing.n_points(), facing.n_points() == 1 ? "" : "s",
+          describe(*surface.interface), facing.n_points(), facing.n_points() == 1 ? "" : "s",
           is_row ? ", collinear, so that it acts as a hinge" : "", carrier.label(), 1e6 * facing.areas.sum()),
       {"few points", (is_row ? 1.0 : 0.0) - facing.n_points(), "'" + surface.interface->name + "'", true});
 }

@@ -8,7 +8,8 @@
 #include "base/parallel.hpp"
 #include "meeting/neighbours.hpp"
 #include "mesh/unmatched_cells.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 
 namespace dygita {
 
@@ -97,9 +98,9 @@ std::set<int> nodes_with_interface_or_support(const Problem& problem, const std:
     if (surface.part_1 == part) add(nodes_of(surface.facing.facets_1));
     if (surface.part_2 == part) add(nodes_of(surface.facing.facets_2));
   }
-  for (const SupportPtr& support : check::all_supports(problem))
+  for (const SupportPtr& support : all_supports(problem))
     for (const FaceOrRegion& on : support->on)
-      if (&check::part_of(on) == problem.substructures[static_cast<size_t>(part)].get()) add(check::nodes_at(on));
+      if (&part_of(on) == problem.substructures[static_cast<size_t>(part)].get()) add(nodes_at(on));
   return nodes;
 }
 

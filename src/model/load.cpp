@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/overloaded.hpp"
+#include "model/places.hpp"
 
 namespace dygita {
 
@@ -46,9 +47,9 @@ bool is_face(const Target& target) { return std::holds_alternative<Face>(target)
 bool is_place(const Target& target) { return is_face(target) || std::holds_alternative<Region>(target); }
 
 FaceOrRegion place(const Target& target) {
-  if (const Face* face = std::get_if<Face>(&target)) return *face;
-  CHECK(std::holds_alternative<Region>(target), "a load that acts on places has another target");
-  return std::get<Region>(target);
+  const std::optional<FaceOrRegion> place = place_of(target);
+  CHECK(place, "a load that acts on places has another target");
+  return *place;
 }
 
 const Tightening* tightening(const Effect& effect) {

@@ -10,8 +10,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "model/check.hpp"
+#include "law/law.hpp"
 #include "model/effects.hpp"
+#include "model/places.hpp"
 #include "signal/spectrum.hpp"
 
 namespace dygita {
@@ -182,8 +183,7 @@ const Load* same_load_in(const Step& step, const Load& load, size_t i_value) {
   if (step.is_static) return nullptr;
   for (const LoadPtr& other : step.loads) {
     bool is_same = other->path == load.path && other->on.size() == load.on.size();
-    for (size_t i = 0; is_same && i < load.on.size(); ++i)
-      is_same = check::describe(load.on[i]) == check::describe(other->on[i]);
+    for (size_t i = 0; is_same && i < load.on.size(); ++i) is_same = describe(load.on[i]) == describe(other->on[i]);
     if (is_same && other->values[i_value]) return other.get();
   }
   return nullptr;

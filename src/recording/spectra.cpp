@@ -6,7 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {
@@ -32,7 +33,7 @@ SrsSettings srs_settings(const Arguments& arguments) {
 std::string spectrum_unit(const SrsSettings& settings) { return srs_unit(settings.quantity, "m/s^2"); }
 
 void check_spectrum(const Problem& problem, const Output& output, const SrsSettings& settings) {
-  if (!check::has_dynamic_step(problem))
+  if (!has_dynamic_step(problem))
     check::fail(problem, output.origin, output.known_as() + ": the problem has no dynamic step",
                 "a spectrum requires a dynamic step");
   double duration = 0.0;

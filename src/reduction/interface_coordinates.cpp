@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "model/places.hpp"
 #include "numerics/dense.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "watch/weighted_nodes.hpp"
@@ -121,10 +122,6 @@ class IndependentRows {
   std::map<int, std::vector<int>> rows_at_;
   std::vector<Eigen::Triplet<double>> triplets_;
 };
-
-std::string label_of(const FaceOrRegion& place) {
-  return std::visit([](const auto& on) { return on.label(); }, place);
-}
 
 }  // namespace
 

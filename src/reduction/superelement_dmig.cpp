@@ -7,7 +7,7 @@
 
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
 #include "reduction/superelement_files.hpp"
 
 namespace dygita {
@@ -60,8 +60,8 @@ class GridNumbers {
  private:
   using Key = std::tuple<const Substructure*, int, int>;
   Key key(const Superelement::Row& row) const {
-    const FaceOrRegion place = *check::place_of(element_.on[static_cast<size_t>(row.on)]);
-    return {&check::part_of(place), row.node < 0 ? row.on : -1, row.node};
+    const FaceOrRegion place = *place_of(element_.on[static_cast<size_t>(row.on)]);
+    return {&part_of(place), row.node < 0 ? row.on : -1, row.node};
   }
 
   const Superelement& element_;
@@ -124,7 +124,7 @@ std::string point_table(const Superelement& element, const GridNumbers& grids) {
       text += fmt::format("{}, {}, {:.17g}, {:.17g}, {:.17g}\n", names[f], grid, x[0], x[1], x[2]);
     };
     add(-1);
-    for (const int node : check::nodes_at(*check::place_of(element.on[f]))) add(node);
+    for (const int node : nodes_at(*place_of(element.on[f]))) add(node);
   }
   return text;
 }

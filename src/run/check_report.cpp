@@ -6,8 +6,8 @@
 
 #include "base/memory.hpp"
 #include "base/warnings.hpp"
+#include "checks/check_problem.hpp"
 #include "interfaces/unjoined.hpp"
-#include "model/check.hpp"
 #include "reduction/lumped_inertia.hpp"
 #include "reference/explicit.hpp"
 #include "run/part_lines.hpp"

@@ -4,8 +4,8 @@
 
 #include "base/log.hpp"
 #include "mesh/cell_quality.hpp"
-#include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/places.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {
@@ -109,7 +109,7 @@ void go_on(const Support& support, const Step& step, BaseJourney& base) {
 
 std::vector<std::string> base_lines(const Problem& problem) {
   std::vector<std::string> lines;
-  for (const SupportPtr& support : check::all_supports(problem)) {
+  for (const SupportPtr& support : all_supports(problem)) {
     BaseJourney base;
     for (const StepPtr& step : problem.steps) go_on(*support, *step, base);
     const Vec3 v = base.velocity + Vec3::Zero(), u = 1e3 * base.path + Vec3::Zero();  // no "-0"

@@ -13,6 +13,7 @@
 #include "base/name_list.hpp"
 #include "base/progress.hpp"
 #include "base/team.hpp"
+#include "checks/check_problem.hpp"
 #include "files/bolt_table.hpp"
 #include "files/files.hpp"
 #include "files/replacement.hpp"

@@ -6,7 +6,7 @@
 #include "base/log.hpp"
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
 #include "partition/all_pieces.hpp"
 #include "partition/copies.hpp"
 #include "pieces/explicit_piece.hpp"
@@ -123,8 +123,8 @@ void let_go_of_absorbed(const StepModel& model, State& state) {
   for (const SupportPtr& support : supports_of(problem, *model.step)) {
     if (!support->kind->absorbs()) continue;
     for (const FaceOrRegion& on : support->on) {
-      const std::vector<int> nodes = check::nodes_at(on);
-      std::vector<int>& of_part = kept[static_cast<size_t>(index_of(problem.substructures, &check::part_of(on)))];
+      const std::vector<int> nodes = nodes_at(on);
+      std::vector<int>& of_part = kept[static_cast<size_t>(index_of(problem.substructures, &part_of(on)))];
       of_part.insert(of_part.end(), nodes.begin(), nodes.end());
     }
   }

@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"mesher", {"base", "numerics", "mesh", "intake"}},
     {"foreign", {"base", "ranks", "numerics", "mesh", "intake"}},
     {"model", {"base", "mesh", "signal", "material", "meeting", "law"}},
+    {"checks", {"base", "mesh", "signal", "law", "model"}},
     {"interfaces", {"base", "numerics", "mesh", "meeting", "law", "model"}},
     {"partition", {"base", "ranks", "numerics", "mesh", "fem", "model", "interfaces"}},
     {"exchange", {"base", "ranks", "numerics", "law", "model", "interfaces", "partition"}},
@@ -48,13 +49,13 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"files", {"base", "numerics", "law", "model", "result", "recording"}},
     {"drawing", {"base", "mesh", "signal", "model", "result", "files"}},
     {"report", {"base", "signal", "model", "result", "estimates", "files", "drawing"}},
-    {"run",
-     {"base", "ranks", "numerics", "mesh", "law", "model", "interfaces", "partition", "step", "marching", "reference",
-      "persistence", "result", "watch", "reduction", "recording", "files", "drawing", "report"}},
+    {"run", {"base",       "ranks",     "numerics",  "mesh",     "law",       "model",       "checks",
+             "interfaces", "partition", "step",      "marching", "reference", "persistence", "result",
+             "watch",      "reduction", "recording", "files",    "drawing",   "report"}},
     {"deck",
-     {"base", "ranks", "numerics", "mesh", "signal", "material", "law", "intake", "foreign", "model", "result",
-      "estimates", "recording", "report", "run"}},
-    {"app", {"base", "ranks", "signal", "foreign", "files", "report", "deck"}},
+     {"base", "ranks", "numerics", "mesh", "signal", "material", "law", "intake", "foreign", "model", "checks",
+      "result", "estimates", "recording", "report", "run"}},
+    {"app", {"base", "ranks", "signal", "foreign", "checks", "files", "report", "deck"}},
 };
 
 // Third-party headers that everybody may include; the others belong to one module.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checks/check_problem.hpp"
 #include "deck/deck.hpp"
 #include "fuzz/deck_mutator.hpp"
 #include "fuzz/target.hpp"

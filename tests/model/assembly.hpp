@@ -75,24 +75,6 @@ class Assembly : public ::testing::Test {
     problem.outputs = {above, below};
     take_warnings();
   }
-
-  // The message to the user, whole; "" when the problem is accepted.
-  std::string complaint() const {
-    try {
-      check_problem(problem);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
-
-  std::string only_warning() const {
-    take_warnings();
-    EXPECT_EQ(complaint(), "");
-    const std::vector<std::string> warnings = take_warnings();
-    EXPECT_EQ(warnings.size(), 1U);
-    return warnings.empty() ? "" : warnings.front();
-  }
 };
 
 }  // namespace dygita

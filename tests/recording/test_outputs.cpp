@@ -1,10 +1,10 @@
 // What outputs check, whatever solver answers them.
-#include "model/assembly.hpp"
+#include "checks/checked_assembly.hpp"
 #include "recording/given_output.hpp"
 
 namespace dygita::outputs_tests {
 
-class Outputs : public Assembly {
+class Outputs : public CheckedAssembly {
  protected:
   Outputs() { declare(Vec3::UnitZ()); }
 

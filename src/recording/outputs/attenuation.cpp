@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/log.hpp"
-#include "model/check.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "recording/spectra.hpp"

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/log.hpp"
-#include "model/check.hpp"
 #include "model/mode_forces.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 

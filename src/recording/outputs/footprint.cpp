@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "watch/surface_sums.hpp"
@@ -78,7 +79,7 @@ class FootprintOutput final : public Output {
 
   void check(const Problem& problem) const override {
     check::is_on(problem, *this, request_.on, [](const Target& target) {
-      const bool fits = std::holds_alternative<InterfacePtr>(target) || check::is_wall(target);
+      const bool fits = std::holds_alternative<InterfacePtr>(target) || is_wall(target);
       return fits ? "" : "output.footprint takes an interface or a support.wall";
     });
   }

@@ -2,8 +2,9 @@
 #include <algorithm>
 
 #include "fem/assembly.hpp"
-#include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "watch/growth.hpp"
@@ -47,7 +48,7 @@ std::vector<WeightedNodes> weigh(const Problem& problem, const std::vector<Targe
   std::vector<WeightedNodes> groups;
   double total = 0.0;
   for (const Target& target : on) {
-    const std::optional<FaceOrRegion> place = check::place_of(target);
+    const std::optional<FaceOrRegion> place = place_of(target);
     if (!place) continue;
     groups.push_back(weighted_nodes(problem, *place));
     for (const double w : groups.back().weights) total += w;
@@ -131,21 +132,18 @@ class HistoryOutput final : public Output {
                   "an output of its own for each kind");
     for (size_t i = 0; i < request_.on.size(); ++i)
       for (size_t j = 0; j < i; ++j)
-        if (const auto one = check::place_of(request_.on[j]), other = check::place_of(request_.on[i]);
-            one && other && check::overlap(*one, *other))
+        if (const auto one = place_of(request_.on[j]), other = place_of(request_.on[i]);
+            one && other && overlap(*one, *other))
           check::fail(problem, origin,
-                      known_as() + " is on " + check::describe(request_.on[j]) + " and on " +
-                          check::describe(request_.on[i]) +
+                      known_as() + " is on " + describe(request_.on[j]) + " and on " + describe(request_.on[i]) +
                           ", which share facets or nodes: these would count twice in the mean");
     const bool is_of_stress =
         request_.what.quantity == Quantity::stress || request_.what.quantity == Quantity::von_mises;
     for (const Target& target : request_.on)
-      if (const auto place = check::place_of(target);
-          place && is_of_stress && !check::part_of(*place).mesh->has_cells())
-        check::fail(
-            problem, origin,
-            known_as() + ": superelement '" + check::part_of(*place).name + "' has no stress, since it has no cells",
-            "take its displacement, velocity or acceleration, or the pressure of an interface");
+      if (const auto place = place_of(target); place && is_of_stress && !part_of(*place).mesh->has_cells())
+        check::fail(problem, origin,
+                    known_as() + ": superelement '" + part_of(*place).name + "' has no stress, since it has no cells",
+                    "take its displacement, velocity or acceleration, or the pressure of an interface");
     if (request_.direction && (request_.what.quantity == Quantity::von_mises || request_.is_of_surfaces()))
       check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no direction");
   }
@@ -159,7 +157,7 @@ class HistoryOutput final : public Output {
                          "', which weights each equally; in a mesh it weights them by volume");
     const Quantity quantity = request_.what.quantity;
     const bool is_rate = quantity == Quantity::velocity || quantity == Quantity::acceleration;
-    if (is_rate && !check::has_dynamic_step(problem))
+    if (is_rate && !has_dynamic_step(problem))
       check::doubt(problem, origin, known_as() + " is zero throughout: there is no dynamic step");
   }
 
@@ -199,11 +197,11 @@ class HistoryOutput final : public Output {
   bool is_prescribed(const Problem& problem) const override {
     const auto is_held_in = [&](const StepPtr& step) {
       return std::all_of(request_.on.begin(), request_.on.end(), [&](const Target& target) {
-        const std::optional<FaceOrRegion> place = check::place_of(target);
+        const std::optional<FaceOrRegion> place = place_of(target);
         return place && is_held(problem, *step, *place);
       });
     };
-    return check::has_dynamic_step(problem) && !request_.on.empty() &&
+    return has_dynamic_step(problem) && !request_.on.empty() &&
            std::all_of(problem.steps.begin(), problem.steps.end(),
                        [&](const StepPtr& step) { return step->is_static || is_held_in(step); });
   }
@@ -216,10 +214,10 @@ class HistoryOutput final : public Output {
   // Are all its nodes on one support that holds them, shaken or at rest, or under one load that moves them along its
   // direction?
   bool is_held(const Problem& problem, const Step& step, const FaceOrRegion& place) const {
-    const std::vector<int> nodes = check::nodes_at(place);
+    const std::vector<int> nodes = nodes_at(place);
     const auto lies_in = [&](const FaceOrRegion& other) {
-      if (&check::part_of(other) != &check::part_of(place)) return false;
-      const std::vector<int> all = check::nodes_at(other);
+      if (&part_of(other) != &part_of(place)) return false;
+      const std::vector<int> all = nodes_at(other);
       return std::includes(all.begin(), all.end(), nodes.begin(), nodes.end());
     };
     for (const SupportPtr& support : supports_of(problem, step))
@@ -244,7 +242,7 @@ class HistoryOutput final : public Output {
   std::string refused(const Target& target) const {
     const bool is_interface = std::holds_alternative<InterfacePtr>(target);
     if (request_.is_of_surfaces())
-      return is_interface || check::is_wall(target) ? "" : "quantity 'pressure' takes an interface or a support.wall";
+      return is_interface || is_wall(target) ? "" : "quantity 'pressure' takes an interface or a support.wall";
     return is_interface || std::holds_alternative<SupportPtr>(target)
                ? "quantity '" + std::string(request_.what.name) + "' takes a face or a region"
                : "";

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "law/law.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "watch/followed_motion.hpp"
@@ -79,7 +80,7 @@ class JointOutput final : public Output {
 
   void check(const Problem& problem) const override {
     check::is_on(problem, *this, on_, [](const Target& target) {
-      const bool fits = std::holds_alternative<InterfacePtr>(target) || check::is_wall(target);
+      const bool fits = std::holds_alternative<InterfacePtr>(target) || is_wall(target);
       return fits ? "" : "output.joint takes an interface or a support.wall";
     });
   }

@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "base/log.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/loop_recorder.hpp"
 #include "recording/output_table.hpp"
 #include "reduction/loop_cycles.hpp"
@@ -79,7 +80,7 @@ class LoopOutput final : public Output {
 
   void check(const Problem& problem) const override {
     check::is_on(problem, *this, request_.on, [](const Target& target) {
-      return check::place_of(target) ? "output.loop takes interfaces or supports; faces go to 'between'" : "";
+      return place_of(target) ? "output.loop takes interfaces or supports; faces go to 'between'" : "";
     });
     has_two_sides(problem);
     if (request_.between.size() == 2) sides_are_in_order(problem);
@@ -157,7 +158,7 @@ class LoopOutput final : public Output {
     bool needs_between = false;
     for (const Target& target : request_.on) {
       n_supports += std::holds_alternative<SupportPtr>(target);
-      needs_between = needs_between || (std::holds_alternative<SupportPtr>(target) && !check::is_wall(target));
+      needs_between = needs_between || (std::holds_alternative<SupportPtr>(target) && !is_wall(target));
     }
     if (n_supports > 0 && n_supports < request_.on.size())
       check::fail(problem, origin, who + " is on interfaces and supports",
@@ -211,11 +212,10 @@ class LoopOutput final : public Output {
     for (const Target& target : request_.on) {
       const auto* interface = std::get_if<InterfacePtr>(&target);
       if (!interface || (*interface)->side_1.part == (*interface)->side_2.part) continue;
-      if (&check::part_of(first) == (*interface)->side_2.part.get() &&
-          &check::part_of(second) == (*interface)->side_1.part.get())
+      if (&part_of(first) == (*interface)->side_2.part.get() && &part_of(second) == (*interface)->side_1.part.get())
         check::fail(problem, origin,
                     fmt::format("{}: 'between' is the other way round than that of {}: write {} first", known_as(),
-                                check::describe(**interface), check::label_of(second)),
+                                describe(**interface), label_of(second)),
                     "the displacement is of the second place against the first, the force acts on side 1");
     }
   }

@@ -5,10 +5,11 @@
 
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "model/check.hpp"
 #include "model/effects.hpp"
 #include "model/load.hpp"
 #include "model/mode_forces.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "reduction/lumped_inertia.hpp"
@@ -191,8 +192,8 @@ class ModesOutput final : public Output, public ModeShapes {
     for (const SupportPtr& support : supports_of(problem, *about(problem)))
       if (support->kind->absorbs())
         check::fail(problem, origin,
-                    who + ": " + check::describe(*support) + " is a non-reflecting boundary in step '" +
-                        about(problem)->name + "', which has no natural frequencies",
+                    who + ": " + describe(*support) + " is a non-reflecting boundary in step '" + about(problem)->name +
+                        "', which has no natural frequencies",
                     "give the step its own 'supports', without it");
   }
 

@@ -3,7 +3,8 @@
 #include <array>
 
 #include "fem/assembly.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 
@@ -70,7 +71,7 @@ class MomentumOutput final : public Output {
   }
 
   void doubt(const Problem& problem) const override {
-    if (!check::has_dynamic_step(problem))
+    if (!has_dynamic_step(problem))
       check::doubt(problem, origin, known_as() + " is zero throughout: there is no dynamic step");
   }
 

@@ -1,7 +1,8 @@
 // output.resultant: the force through an interface or a support (manual, instants and means).
 #include <algorithm>
 
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "watch/surface_sums.hpp"
@@ -31,7 +32,7 @@ class ResultantOutput final : public Output {
 
   void check(const Problem& problem) const override {
     check::is_on(problem, *this, on_, [](const Target& target) {
-      return check::place_of(target) ? "output.resultant takes an interface or a support" : "";
+      return place_of(target) ? "output.resultant takes an interface or a support" : "";
     });
   }
 
@@ -41,7 +42,7 @@ class ResultantOutput final : public Output {
       if (support && std::any_of((*support)->on.begin(), (*support)->on.end(),
                                  [](const FaceOrRegion& on) { return std::holds_alternative<Region>(on); }))
         check::doubt(problem, origin,
-                     known_as() + ": " + check::describe(**support) +
+                     known_as() + ": " + describe(**support) +
                          " is on a region, which has no normal: 'normal' is 0 and 'shear' is the total force; use a "
                          "face, or x, y, z");
     }

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/log.hpp"
-#include "model/check.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "recording/spectra.hpp"

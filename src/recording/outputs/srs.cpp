@@ -6,7 +6,7 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "estimates/spectrum_band.hpp"
-#include "model/check.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "recording/spectra.hpp"

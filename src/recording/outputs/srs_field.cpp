@@ -3,7 +3,7 @@
 #include <map>
 
 #include "meeting/facing.hpp"
-#include "model/check.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "recording/spectra.hpp"

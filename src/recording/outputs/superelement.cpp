@@ -4,7 +4,8 @@
 
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "model/check.hpp"
+#include "model/places.hpp"
+#include "model/refusal.hpp"
 #include "numerics/dense.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
@@ -96,9 +97,9 @@ SuperelementRequest request_of(const ModelArguments& a) {
 // Do the nodes lie on a line, which does not turn about itself? A node alone does not count.
 bool is_line(const FaceOrRegion& place) {
   constexpr double flat = 1e-12;  // of squares
-  const std::vector<int> nodes = check::nodes_at(place);
+  const std::vector<int> nodes = nodes_at(place);
   if (nodes.size() < 2) return false;
-  const Points places = check::part_of(place).mesh->nodes(Eigen::all, nodes);
+  const Points places = part_of(place).mesh->nodes(Eigen::all, nodes);
   const Points arms = places.colwise() - places.rowwise().mean();
   const Vec sizes = symmetric_eigen(arms * arms.transpose()).values;
   return sizes[1] <= flat * sizes[2];
@@ -108,8 +109,8 @@ bool is_line(const FaceOrRegion& place) {
 size_t least_unknowns(const Problem& problem, const Step& step, const std::vector<Target>& on) {
   std::map<const Substructure*, std::set<int>> held, joined, free;
   const auto add = [](const FaceOrRegion& place, auto& nodes) {
-    const std::vector<int> own = check::nodes_at(place);
-    nodes[&check::part_of(place)].insert(own.begin(), own.end());
+    const std::vector<int> own = nodes_at(place);
+    nodes[&part_of(place)].insert(own.begin(), own.end());
   };
   for (const SupportPtr& support : supports_of(problem, step))
     for (const FaceOrRegion& place : support->on) add(place, held);
@@ -117,7 +118,7 @@ size_t least_unknowns(const Problem& problem, const Step& step, const std::vecto
     add(interface->side_1, joined);
     add(interface->side_2, joined);
   }
-  for (const Target& target : on) add(*check::place_of(target), free);
+  for (const Target& target : on) add(*place_of(target), free);
   size_t n_free = 0, n_joined = 0;
   for (const auto& [part, nodes] : free) {
     size_t of_part = 0;
@@ -140,8 +141,7 @@ class SuperelementOutput final : public Output {
     check::files_are_free(problem, *this,
                           {".json", ".md", "_mass.mtx", "_stiffness.mtx", "_damping.mtx", ".pch", "_points.csv"});
     check::is_on(problem, *this, request_.on, [](const Target& target) {
-      return check::place_of(target) ? ""
-                                     : "output.superelement takes faces or regions: where something is to be attached";
+      return place_of(target) ? "" : "output.superelement takes faces or regions: where something is to be attached";
     });
     if (after_) check::listed(problem, who + " is made after step", *after_, problem.steps, "steps");
     const Step* step = step_about(problem, after_);
@@ -158,7 +158,7 @@ class SuperelementOutput final : public Output {
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind->absorbs())
         check::fail(problem, origin,
-                    who + ": " + check::describe(*support) + " is a non-reflecting boundary in step '" + step->name +
+                    who + ": " + describe(*support) + " is a non-reflecting boundary in step '" + step->name +
                         "', which a superelement cannot represent",
                     "give the step its own 'supports' without it");
   }
@@ -187,9 +187,9 @@ class SuperelementOutput final : public Output {
                                     most_face_unknowns),
                   "use smaller faces or larger cells there");
     for (const Target& target : request_.on)
-      if (request_.motion == FaceMotion::rigid && is_line(*check::place_of(target)))
+      if (request_.motion == FaceMotion::rigid && is_line(*place_of(target)))
         check::fail(problem, origin,
-                    who + ": the nodes of " + check::describe(target) +
+                    who + ": the nodes of " + describe(target) +
                         " are collinear and cannot define rotation about their line: six rigid motions are required",
                     "take motion = \"nodes\", or use a face, or a region whose nodes are not collinear");
   }

@@ -1,7 +1,7 @@
 // output.vtk: frames for ParaView, evenly over each step.
 #include <algorithm>
 
-#include "model/check.hpp"
+#include "model/refusal.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "watch/frames.hpp"

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "base/overloaded.hpp"
+#include "checks/parts.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
-#include "model/check.hpp"
 #include "model/growth.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"

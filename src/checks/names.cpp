@@ -1,8 +1,9 @@
+#include "base/names.hpp"
+
 #include <algorithm>
 #include <set>
 
-#include "base/names.hpp"
-#include "model/check.hpp"
+#include "checks/parts.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
 #include "model/own_files.hpp"

@@ -1,9 +1,9 @@
+#include "checks/checked_assembly.hpp"
 #include "law/law.hpp"
-#include "model/assembly.hpp"
 
 namespace dygita {
 
-using Steps = Assembly;
+using Steps = CheckedAssembly;
 
 TEST_F(Steps, start_from_the_undeformed_state) {
   problem.steps = {shock, tighten};

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checks/parts.hpp"
 #include "law/law.hpp"
-#include "model/check.hpp"
 
 namespace dygita::check {
 

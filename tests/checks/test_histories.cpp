@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/assembly.hpp"
+#include "checks/checked_assembly.hpp"
 #include "model/load_content.hpp"
 #include "signal/signal_file.hpp"
 
@@ -11,7 +11,7 @@ namespace dygita {
 namespace {
 
 // A problem whose shock (200 us in steps of 1 us) is driven by one history.
-class Histories : public Assembly {
+class Histories : public CheckedAssembly {
  protected:
   void push_with(const History& history, const std::string& word = "pressure") {
     GivenArguments arguments("load." + word, {"deck.lua", 40});
@@ -179,7 +179,7 @@ TEST_F(Histories, in_another_unit_than_their_load_are_refused) {
   EXPECT_EQ(complaint(), "");
 }
 
-using Damped = Assembly;
+using Damped = CheckedAssembly;
 
 std::string damping_doubt() {
   for (const std::string& warning : take_warnings())

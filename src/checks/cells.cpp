@@ -1,5 +1,5 @@
 // What a solver asks of the cells: a mass for each node, where it cannot do with a matrix.
-#include "model/check.hpp"
+#include "checks/parts.hpp"
 
 namespace dygita::check {
 
@@ -11,10 +11,6 @@ const CellShape* consistent_cells(const Substructure& part) {
     if (cell_shape(block.type).inertia == Inertia::consistent) return &cell_shape(block.type);
   return nullptr;
 }
-
-}  // namespace
-
-namespace {
 
 // A non-reflecting support is made of the material behind it.
 void materials(const Problem& problem) {

@@ -1,8 +1,8 @@
-#include "model/assembly.hpp"
+#include "checks/checked_assembly.hpp"
 
 namespace dygita {
 
-using Names = Assembly;
+using Names = CheckedAssembly;
 
 TEST_F(Names, of_a_sound_problem_are_accepted_without_a_word) {
   EXPECT_EQ(complaint(), "");

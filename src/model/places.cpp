@@ -1,52 +1,12 @@
-#include "model/check.hpp"
+#include "model/places.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "base/log.hpp"
-#include "base/names.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 
 namespace dygita {
-
-void check_problem(const Problem& problem) {
-  check::names(problem);
-  check::interfaces(problem);
-  check::supports(problem);
-  check::steps(problem);
-  check::cells(problem);
-  check::loads(problem);
-  check::outputs(problem);
-  check::integration(problem);
-  check::histories(problem);
-  check::doubts(problem);
-  check::balance(problem);
-  check::resolution(problem);
-}
-
-namespace check {
-
-void fail(const Problem& problem, const Origin& origin, const std::string& text, const std::string& hint) {
-  throw InputError(origin.file.empty() ? problem.origin : origin,
-                   "problem '" + problem.name + "': " + text + (hint.empty() ? "" : "\n    " + hint));
-}
-
-namespace {
-
-std::string placed(const Problem& problem, const Origin& origin, const std::string& text) {
-  return (origin.file.empty() ? problem.origin : origin).prefix() + "problem '" + problem.name + "': " + text;
-}
-
-}  // namespace
-
-void doubt(const Problem& problem, const Origin& origin, const std::string& text) {
-  warn(placed(problem, origin, text));
-}
-
-void doubt(const Problem& problem, const Origin& origin, const std::string& text, const KindOfWarning& of) {
-  warn(placed(problem, origin, text), of);
-}
 
 bool has_dynamic_step(const Problem& problem) {
   return std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
@@ -124,26 +84,6 @@ bool coincide(const FaceOrRegion& a, const FaceOrRegion& b) {
   return &part_of(a) == &part_of(b) && nodes_at(a) == nodes_at(b);
 }
 
-void place_exists(const Problem& problem, const Origin& origin, const std::string& who, const FaceOrRegion& place) {
-  listed(problem, who + " substructure", part_of(place), problem.substructures, "substructures");
-  const Substructure& part = part_of(place);
-  if (const Face* face = std::get_if<Face>(&place); face && face->picked) {
-    if (face->picked->empty()) fail(problem, origin, who + " face '" + face->label() + "', which has no facet");
-  } else if (face) {
-    const auto found = part.mesh->faces.find(face->group);
-    if (found == part.mesh->faces.end()) {
-      std::vector<std::string> known;
-      for (const auto& [group, facets] : part.mesh->faces) known.push_back(group);
-      fail(problem, origin, who + " face '" + face->group + "', which substructure '" + part.name + "' does not have",
-           did_you_mean(face->group, known));
-    }
-    if (found->second.empty()) fail(problem, origin, who + " face '" + face->label() + "', which has no facet");
-  } else if (std::get<Region>(place).nodes.empty()) {
-    fail(problem, origin, who + " a region of substructure '" + part.name + "' that has no node",
-         "its function answered true for no node");
-  }
-}
-
 std::string describe(const Interface& interface) {
   return "interface." + interface.law->word() + " '" + interface.name + "'";
 }
@@ -163,30 +103,4 @@ std::optional<FaceOrRegion> place_of(const Target& target) {
   return std::nullopt;
 }
 
-void target_exists(const Problem& problem, const Origin& origin, const std::string& who, const Target& target,
-                   const std::vector<SupportPtr>& supports) {
-  if (const InterfacePtr* interface = std::get_if<InterfacePtr>(&target)) {
-    listed(problem, who + " interface", **interface, problem.interfaces, "interfaces");
-  } else if (const SupportPtr* support = std::get_if<SupportPtr>(&target)) {
-    listed(problem, who + " support", **support, supports, "supports");
-  } else {
-    place_exists(problem, origin, who, *place_of(target));
-  }
-}
-
-std::string why_not_listed(const Named& object, const std::vector<const Named*>& list, const std::string& list_name) {
-  std::vector<std::string> known;
-  for (const Named* other : list) {
-    if (other->name == object.name) {
-      const std::string where = other->origin.file.empty()
-                                    ? ""
-                                    : ", declared at " + other->origin.file + ":" + std::to_string(other->origin.line);
-      return "'" + list_name + "' has another one of that name" + where + ": is one object declared twice?";
-    }
-    known.push_back(other->name);
-  }
-  return "add it to '" + list_name + "'; " + did_you_mean(object.name, known);
-}
-
-}  // namespace check
 }  // namespace dygita

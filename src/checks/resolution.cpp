@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/warnings.hpp"
-#include "model/check.hpp"
+#include "checks/parts.hpp"
 #include "model/load_content.hpp"
 #include "model/output.hpp"
 

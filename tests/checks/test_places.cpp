@@ -1,9 +1,9 @@
+#include "checks/checked_assembly.hpp"
 #include "law/law_double.hpp"
-#include "model/assembly.hpp"
 
 namespace dygita {
 
-using Places = Assembly;
+using Places = CheckedAssembly;
 
 TEST_F(Places, of_an_interface_are_on_listed_substructures) {
   problem.substructures = {lower};

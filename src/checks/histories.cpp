@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/check.hpp"
+#include "checks/parts.hpp"
 #include "model/load.hpp"
 #include "model/load_content.hpp"
 #include "signal/unit.hpp"

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "base/overloaded.hpp"
+#include "checks/parts.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
-#include "model/check.hpp"
 #include "model/load.hpp"
 
 namespace dygita::check {

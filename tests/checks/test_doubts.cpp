@@ -1,8 +1,8 @@
-#include "model/assembly.hpp"
+#include "checks/checked_assembly.hpp"
 
 namespace dygita {
 
-using Doubts = Assembly;
+using Doubts = CheckedAssembly;
 
 TEST_F(Doubts, are_said_of_a_substructure_that_nothing_touches) {
   auto nut = declared<Substructure>("nut", 3);

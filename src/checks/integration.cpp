@@ -1,5 +1,5 @@
 // Substructures that are to be explicit: does the problem allow it?
-#include "model/check.hpp"
+#include "checks/parts.hpp"
 
 namespace dygita::check {
 

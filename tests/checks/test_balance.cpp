@@ -1,8 +1,8 @@
-#include "model/assembly.hpp"
+#include "checks/checked_assembly.hpp"
 
 namespace dygita::balance_tests {
 
-using Balance = Assembly;
+using Balance = CheckedAssembly;
 
 TEST_F(Balance, tells_of_a_force_on_a_fixed_face) {
   shock->loads = {load("pressure", {Face{lower, "zmin"}}, 1e6)};

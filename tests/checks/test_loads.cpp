@@ -1,9 +1,9 @@
+#include "checks/checked_assembly.hpp"
 #include "law/law.hpp"
-#include "model/assembly.hpp"
 
 namespace dygita {
 
-class LoadRules : public Assembly {
+class LoadRules : public CheckedAssembly {
  protected:
   std::string complaint_of(const LoadPtr& load_of_shock) {
     shock->loads = {load_of_shock};

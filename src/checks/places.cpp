@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "checks/parts.hpp"
 #include "law/law.hpp"
-#include "model/check.hpp"
 
 namespace dygita::check {
 

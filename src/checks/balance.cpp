@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/names.hpp"
+#include "checks/parts.hpp"
 #include "mesh/face_nodes.hpp"
-#include "model/check.hpp"
 #include "model/load.hpp"
 
 namespace dygita::check {
