@@ -24,11 +24,16 @@ check(made["TIME"] > 0, "the instant shown is not in the motion")
 check(abs(GetAnimationScene().AnimationTime - made["TIME"]) < 1e-15, "ParaView stands at another instant")
 check(warp.ScaleFactor > 1 and interfaces.ScaleFactor == warp.ScaleFactor, "nothing is magnified")
 check(list(clip.ClipType.Origin) == made["CENTRE"], "the clip is not at the middle")
-points = GetColorTransferFunction("von Mises stress (MPa)").RGBPoints
+table = GetColorTransferFunction("von Mises stress (MPa)")
+points = table.RGBPoints
 values = made["values_of"](made["shown"], "von Mises stress (MPa)")
 check(len(values) > 50 and abs(values[-1] / (1e-6 * made["TOP"]) - 1) < 0.5, "the stresses are not in MPa: %g" % values[-1])
-check(points[0] == 0 and points[-4] == made["top"], "the colours do not begin at zero or end elsewhere")
-check(sum(v > 0.2 * points[-4] for v in values) > 0.4 * len(values), "most of the assembly has the lowest colours")
+low, top = points[0], points[-4]
+check((low, top) == (made["low"], made["top"]), "the colours do not begin and end as they should: %g, %g" % (low, top))
+is_logarithmic = table.UseLogScale == 1
+check(is_logarithmic == (low > 0), "a logarithmic scale that begins at zero, or another that does not")
+fifth = low * (top / low) ** 0.2 if is_logarithmic else 0.2 * top
+check(sum(v > fifth for v in values) > 0.4 * len(values), "most of the assembly has the lowest colours")
 names = GetColorTransferFunction("vtkBlockColors").Annotations
 check(list(names) == ["0", "low", "1", "high"], "the parts are not named: %s" % names)
 warp.UpdatePipeline(made["TIME"])

@@ -88,12 +88,12 @@ def values_of(source, field):
     return sorted(v for v in values if v == v)
 
 
-def top_of(source, field, top):
-    """Of the colours: what one value in two hundred exceeds; where a peak would leave half of them the lowest fifth, one in twenty."""
+def range_of(source, field, top):
+    """Of the colours: from zero; where a peak would leave half of what is seen the lowest fifth, three decades at most of a logarithmic scale."""
     values = values_of(source, field)
     if values and values[len(values) // 2] < 0.2 * top:
-        return max(values[len(values) * 19 // 20], 1e-3 * top)
-    return top
+        return max(values[len(values) // 20], 1e-3 * top), top
+    return 0.0, top
 
 
 def in_unit(name, source, function):
@@ -111,15 +111,19 @@ def warped(name, source):
     return warp
 
 
-def colored(view, display, field, top):
-    """Colours by a point field, from zero; its legend beside."""
+def colored(view, display, field, low, top):
+    """Colours by a point field, on a logarithmic scale where they do not begin at zero; the legend below."""
     ColorBy(display, ("POINTS", field))
     table = GetColorTransferFunction(field)
+    table.UseLogScale = 0
     table.ApplyPreset("Viridis (matplotlib)", True)
     table.NanColor = [0.8, 0.8, 0.8]
     if top > 0.0:
-        table.RescaleTransferFunction(0.0, top)
-        GetOpacityTransferFunction(field).RescaleTransferFunction(0.0, top)
+        table.RescaleTransferFunction(low, top)
+        GetOpacityTransferFunction(field).RescaleTransferFunction(low, top)
+    if low > 0.0:
+        table.MapControlPointsToLogSpace()
+        table.UseLogScale = 1
     legend(view, display, table, field)
 
 
@@ -127,6 +131,9 @@ def legend(view, display, table, title):
     bar = GetScalarBar(table, view)
     bar.Title = title
     bar.ComponentTitle = ""
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Lower Center"
+    bar.ScalarBarLength = 0.4
     bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
     display.SetScalarBarVisibility(view, True)
 
@@ -187,12 +194,12 @@ layout = GetLayout(view)
 if not layout:
     layout = CreateLayout("dygita")
     AssignViewToLayout(view=view, layout=layout, hint=0)
-top = top_of(shown, title, TOP * (1e-6 if is_stress else 1e3))
+low, top = range_of(shown, title, TOP * (1e-6 if is_stress else 1e3))
 for source in (shown, clip):
     display = Show(source, view)
     display.Representation = "Surface"
     display.Ambient = 0.25
-    colored(view, display, title, top)
+    colored(view, display, title, low, top)
     display.Visibility = 1 if (source is clip) == IS_CUT else 0
 label(view, TITLE, "Upper Left Corner")
 time = AnnotateTimeFilter(registrationName="time", Input=parts)
@@ -223,7 +230,7 @@ if INTERFACES_FILE:
     AssignViewToLayout(view=third, layout=layout, hint=6)
     display = Show(pressed, third)
     display.Representation = "Surface"
-    colored(third, display, "pressure (MPa)", top_of(pressed, "pressure (MPa)", PRESSURE * 1e-6))
+    colored(third, display, "pressure (MPa)", *range_of(pressed, "pressure (MPa)", PRESSURE * 1e-6))
     ghost = Show(deformed, third)
     ghost.Representation = "Surface"
     ghost.ColorArrayName = ["POINTS", ""]
@@ -238,9 +245,13 @@ scene.UpdateAnimationUsingDataTimeSteps()
 scene.AnimationTime = TIME
 SetActiveView(view)
 SetActiveSource(deformed)  # the clip would show its plane
+is_saved = len(sys.argv) == 2 and sys.argv[1].endswith(".png")  # pvpython view.py picture.png
+resolution = [1920, 1080 if INTERFACES_FILE else 720]
 for one in views:  # a window's views have the size they find room for
     width, height = one.ViewSize
+    if is_saved:
+        width, height = resolution[0] // 2, resolution[1] // (2 if INTERFACES_FILE and one is not view else 1)
     one.CameraParallelScale = max(HALF_HEIGHT, HALF_WIDTH * height / max(1, width))
 RenderAllViews()
-if len(sys.argv) == 2 and sys.argv[1].endswith(".png"):  # pvpython view.py picture.png
-    SaveScreenshot(sys.argv[1], layout, ImageResolution=[1920, 1080 if INTERFACES_FILE else 720])
+if is_saved:
+    SaveScreenshot(sys.argv[1], layout, ImageResolution=resolution)
