@@ -158,7 +158,7 @@ problem{ name = "joint", substructures = { lower, upper, screws.parts }, interfa
 
 // A box from CAD on its bracket: every contact found, every bolt at its force, and the shock begun.
 TEST(Bolts, hold_a_box_of_electronics_from_cad) {
-  const PrintedRun box = run_printing("electronics_box.lua", {{"size", "12*mm"}, {"duration", "0.1*ms"}},
+  const PrintedRun box = run_printing("electronics_box.lua", {{"size", "18*mm"}, {"duration", "0.1*ms"}},
                                       "latin{ static_tolerance = 1e-6 }");
   const DeckRun& run = box.runs.at(0);
   EXPECT_EQ(run.problem.substructures.size(), 19u);
