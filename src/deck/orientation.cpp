@@ -15,7 +15,7 @@ namespace {
 
 using AxesAt = std::function<Mat3(const Vec3&)>;  // by the middle of a cell, m
 
-constexpr const char* key = "orientation";
+constexpr const char* word = "orientation";
 constexpr double least_sine = 1e-6;  // between two axes
 
 std::string text_of(const Vec3& x) { return fmt::format("({:g}, {:g}, {:g})", x[0], x[1], x[2]); }
@@ -27,7 +27,7 @@ Mat3 axes_of(const Vec3& one, const Vec3& two, const std::string& where) {
     throw InputError(
         fmt::format("'{}'{}: the axes {} and {} are parallel, or one of them is zero\n    axis 1 is along "
                     "the first, axis 2 in the plane of both, axis 3 across",
-                    key, where, text_of(one), text_of(two)));
+                    word, where, text_of(one), text_of(two)));
   Mat3 axes;
   axes.col(0) = one.normalized();
   axes.col(2) = across.normalized();
@@ -42,7 +42,7 @@ Mat3 axes_around(const Vec3& along, const Vec3& about, double angle, const Vec3&
     throw InputError(
         fmt::format("'{}': the middle of a cell, {} m, is on the axis of the cylinder, where nothing is "
                     "around it",
-                    key, text_of(x)));
+                    word, text_of(x)));
   const Vec3 outward = out.normalized(), around = along.cross(outward);
   Mat3 axes;
   axes << std::cos(angle) * around + std::sin(angle) * along, std::cos(angle) * along - std::sin(angle) * around,
@@ -51,17 +51,17 @@ Mat3 axes_around(const Vec3& along, const Vec3& about, double angle, const Vec3&
 }
 
 AxesAt rule_of(const LuaArguments& a) {
-  if (!a.has(key)) return [](const Vec3&) -> Mat3 { return Mat3::Identity(); };
-  if (a.is_function(key))
+  if (!a.has(word)) return [](const Vec3&) -> Mat3 { return Mat3::Identity(); };
+  if (a.is_function(word))
     return [&a](const Vec3& x) {
-      const std::array<Vec3, 2> axes = a.two_vectors_at(key, x);
+      const std::array<Vec3, 2> axes = a.two_vectors_at(word, x);
       return axes_of(axes[0], axes[1], " at " + text_of(x) + " m");
     };
   // Six numbers of two axes, or an axis, a point of it and an angle (lua/check.lua).
-  const std::vector<double> given = a.numbers(key);
+  const std::vector<double> given = a.numbers(word);
   const Vec3 one(given[0], given[1], given[2]), two(given[3], given[4], given[5]);
   if (given.size() == 6) return [axes = axes_of(one, two, "")](const Vec3&) { return axes; };
-  if (one.isZero(0.0)) throw InputError(fmt::format("'{}.axis' is zero\n    as in axis = {{ 0, 0, 1 }}", key));
+  if (one.isZero(0.0)) throw InputError(fmt::format("'{}.axis' is zero\n    as in axis = {{ 0, 0, 1 }}", word));
   return [along = Vec3(one.normalized()), two, angle = given[6]](const Vec3& x) {
     return axes_around(along, two, angle, x);
   };

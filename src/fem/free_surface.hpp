@@ -2,13 +2,10 @@
 // all that there is to see of it where every cell lies at the surface.
 #pragma once
 
-#include <unordered_set>
-
 #include "fem/assembly.hpp"
+#include "mesh/facet_keys.hpp"
 
 namespace dygita {
-
-using FacetKeys = std::unordered_set<FacetKey, FacetKeyHash>;
 
 // A cell of a mesh with facets at which nothing acts: bit k is facet k of its type.
 struct FreeCell {

@@ -115,14 +115,19 @@ namespace {
 // The time of a long record advances by far less than its ninth digit.
 int digits_of(const std::string& column) { return column == "time" ? 15 : 9; }
 
+void append_number(std::string& text, double value, int digits) {
+  fmt::format_to(std::back_inserter(text), "{:.{}g}", value + 0.0, digits);  // + 0: no "-0"
+}
+
 }  // namespace
 
 Table as_written(Table table) {
+  std::string text;
   for (size_t i = 0; i < table.columns.size(); ++i)
     for (double& value : table.columns[i]) {
-      char text[40] = {};
-      fmt::format_to_n(text, sizeof text - 1, "{:.{}g}", value + 0.0, digits_of(table.names[i]));
-      value = std::strtod(text, nullptr);
+      text.clear();
+      append_number(text, value, digits_of(table.names[i]));
+      value = std::strtod(text.c_str(), nullptr);
     }
   return table;
 }
@@ -145,7 +150,7 @@ std::string csv_text(const Table& table, const std::vector<std::string>& step_na
   for (size_t row = 0; row < static_cast<size_t>(table.n_rows()); ++row) {
     for (size_t i = 0; i < table.columns.size(); ++i) {
       if (i > 0) text += ',';
-      fmt::format_to(out, "{:.{}g}", table.columns[i][row] + 0.0, digits[i]);  // + 0: no "-0"
+      append_number(text, table.columns[i][row], digits[i]);
       if (i == 0 && !table.step.empty()) text += ',' + steps[static_cast<size_t>(table.step[row])];
     }
     text += table.converged.empty() ? "\n" : table.converged[row] != 0.0 ? ",1\n" : ",0\n";

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
 
 #include "base/error.hpp"
 #include "foreign/abaqus_steps.hpp"
+#include "foreign/acting_loads.hpp"
 
 namespace dygita {
 
@@ -145,41 +147,39 @@ class AbaqusDeck : public ImportedDeck {
   // What a step says anew of a place takes the place of what steps before have said of it.
   void add_acting(std::vector<FileAction> actions, std::vector<std::string>& supports,
                   std::vector<std::string>& loads) {
-    const std::vector<Acting> before = acting_;
     for (FileAction& action : actions)
-      if (action.kind == Kind::held && std::any_of(before.begin(), before.end(), [&](const Acting& one) {
-            return one.action.kind == Kind::moved && meet(one.action, action);
-          })) {
+      if (action.kind == Kind::held && !acting_.met_by(action, points_of(action), Kind::moved).empty()) {
         if (action.stays) leave(fmt::format("{}: FIXED of nodes that are moved", action.where));
         action.kind = Kind::moved;  // back to where it was
       }
-    for (const Acting& one : before)
+    for (const ActingLoad& one : acting_.all())
       if (!one.action.amplitude.empty())
         leave(fmt::format("{}: its amplitude goes on into a later step", one.action.where));
     std::vector<FileAction> held;
     std::copy_if(actions.begin(), actions.end(), std::back_inserter(held),
                  [](const FileAction& action) { return action.kind == Kind::held; });
     add(held, supports, loads);
+    std::set<std::string> replaced;
+    std::vector<ActingLoad> added;
     for (const FileAction& action : actions) {
       if (action.kind == Kind::held) continue;
-      for (const Acting& one : before)
-        if (one.action.kind != action.kind || !meet(one.action, action))
-          continue;
-        else if (points_of(one.action) == points_of(action) && one.action.along == action.along)
-          drop([&](const Acting& other) { return other.name == one.name; }, loads);
+      const std::set<int> points = points_of(action);
+      for (const ActingLoad* one : acting_.met_by(action, points, action.kind))
+        if (one->points == points && one->action.along == action.along)
+          replaced.insert(one->name);
         else
-          leave(fmt::format("{}: it changes a part of what {} says", action.where, one.action.where));
+          leave(fmt::format("{}: it changes a part of what {} says", action.where, one->action.where));
       const size_t n = loads.size();
       add({action}, supports, loads);
-      for (size_t i = n; i < loads.size(); ++i) acting_.push_back({action, loads[i]});
+      for (size_t i = n; i < loads.size(); ++i) added.push_back({action, loads[i], points});
     }
+    drop([&](const ActingLoad& one) { return replaced.contains(one.name); }, loads);
+    acting_.add(std::move(added));
   }
 
-  template <class Which>
-  void drop(Which which, std::vector<std::string>& loads) {
-    for (const Acting& one : acting_)
-      if (which(one)) std::erase(loads, one.name);
-    std::erase_if(acting_, which);
+  void drop(const std::function<bool(const ActingLoad&)>& which, std::vector<std::string>& loads) {
+    const std::set<std::string> names = acting_.drop(which);
+    std::erase_if(loads, [&](const std::string& name) { return names.contains(name); });
   }
 
   // Nodes, or corners of facets, of the place of an action: none where it is everywhere.
@@ -194,17 +194,6 @@ class AbaqusDeck : public ImportedDeck {
         for (const ForeignFacet& facet : face.facets) points.insert(facet.corners.begin(), facet.corners.end());
     points.erase(-1);
     return points;
-  }
-
-  // Faces meet in more than an edge.
-  bool meet(const FileAction& one, const FileAction& other) const {
-    if (one.is_everywhere()) return true;
-    bool has_common = one.is_on_faces();
-    for (size_t d = 0; d < 3; ++d) has_common = has_common || (one.along[d] && other.along[d]);
-    const std::set<int> points = points_of(one);
-    size_t n = 0;
-    for (const int point : points_of(other)) n += points.contains(point);
-    return has_common && n > (one.is_on_faces() ? 2u : 0u);
   }
 
   // One value for a part.
@@ -270,15 +259,15 @@ class AbaqusDeck : public ImportedDeck {
 
   // OP = NEW, which is of one kind of loads.
   void drop_old(const AbaqusStep& step, std::vector<std::string>& supports, std::vector<std::string>& loads) {
-    const auto is_moved = [](const Acting& one) { return one.action.kind == Kind::moved; };
-    const auto is_force = [](const Acting& one) { return one.action.kind == Kind::force; };
-    const auto n_forces = std::count_if(acting_.begin(), acting_.end(), is_force),
-               n_moved = std::count_if(acting_.begin(), acting_.end(), is_moved);
+    const auto is_moved = [](const ActingLoad& one) { return one.action.kind == Kind::moved; };
+    const auto is_force = [](const ActingLoad& one) { return one.action.kind == Kind::force; };
+    const auto n_forces = std::count_if(acting_.all().begin(), acting_.all().end(), is_force),
+               n_moved = std::count_if(acting_.all().begin(), acting_.all().end(), is_moved);
     if (step.drops_supports) supports.clear(), drop(is_moved, loads);
     if (!step.drops_loads) return;
-    if (n_forces > 0 && static_cast<size_t>(n_forces + n_moved) < acting_.size())
+    if (n_forces > 0 && static_cast<size_t>(n_forces + n_moved) < acting_.all().size())
       leave(fmt::format("{}: OP = NEW after forces and distributed loads", step.where));
-    drop([&](const Acting& one) { return !is_moved(one); }, loads);
+    drop([&](const ActingLoad& one) { return !is_moved(one); }, loads);
   }
 
   void write_step(const AbaqusStep& step, std::vector<std::string>& supports, std::vector<std::string>& loads) {
@@ -339,10 +328,6 @@ class AbaqusDeck : public ImportedDeck {
     if (steps_.empty() && modes_.empty()) leave("the file has no step that a deck can say");
   }
 
-  struct Acting {
-    FileAction action;
-    std::string name;
-  };
   struct Modes {
     std::string rest, asked;
     std::vector<std::string> supports;
@@ -352,8 +337,8 @@ class AbaqusDeck : public ImportedDeck {
   AbaqusAnalysis analysis_;
   std::vector<std::string> steps_, all_supports_, equations_;
   std::vector<Modes> modes_;
-  std::vector<Acting> acting_;  // loads of files of the steps so far
-  std::string heated_;          // the step that has temperatures
+  ActingLoads acting_;
+  std::string heated_;  // the step that has temperatures
   bool has_contact_ = false;
 };
 

@@ -28,7 +28,9 @@ bool is_of(const ForeignPart& part, const std::string& instance) {
 }  // namespace
 
 ImportedDeck::ImportedDeck(const ImportOptions& options, ForeignModel& model, const char* word)
-    : options_(options), model_(model), parts_(parts_of(model)), units_(file_units(options.units)), word_(word) {}
+    : options_(options), model_(model), parts_(parts_of(model)), units_(file_units(options.units)), word_(word) {
+  for (size_t i = 0; i < model.node_sets.size(); ++i) numbers_of_sets_.emplace(model.node_sets[i].name, i);
+}
 
 void ImportedDeck::leave(const std::string& what) { untranslated_.push_back(what); }
 
@@ -235,9 +237,8 @@ std::vector<FileAction> ImportedDeck::merged(const std::vector<FileAction>& acti
 }
 
 std::vector<int> ImportedDeck::nodes_in(const std::string& place) const {
-  for (const ForeignSet& set : model_.node_sets)
-    if (set.name == place) return set.nodes;
-  return {};
+  const auto set = numbers_of_sets_.find(place);
+  return set == numbers_of_sets_.end() ? std::vector<int>() : model_.node_sets[set->second].nodes;
 }
 
 int ImportedDeck::n_nodes_of(const std::string& place) const {

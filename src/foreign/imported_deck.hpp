@@ -80,6 +80,7 @@ class ImportedDeck {
 
   FileUnits units_;
   const char* word_;
+  std::map<std::string, size_t> numbers_of_sets_;  // of nodes, by name
   std::map<std::string, std::string> materials_;
   std::map<std::string, bool> is_directed_;
   std::map<std::string, std::pair<std::vector<int>, std::array<bool, 3>>> held_;  // by the names of supports

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <string_view>
-#include <unordered_set>
 
 #include "base/parallel.hpp"
 #include "base/task.hpp"
@@ -125,7 +124,7 @@ void doubt_held_side(const Problem& problem, const Surface& surface, const Subst
 // Pressures and tractions act on free faces; gas in a joint that can open is one of them, in a bond it has no place.
 void doubt_pressed_bond(const Problem& problem, const Surface& surface, const SubstructurePtr& part,
                         const std::vector<Facet>& facets, const SubstructurePtr& other) {
-  std::unordered_set<FacetKey, FacetKeyHash> bonded;
+  FacetKeys bonded;
   for (const Facet& facet : facets) bonded.insert(facet_key(facet));
   for (const StepPtr& step : problem.steps)
     for (const LoadPtr& load : step->loads)

@@ -15,8 +15,6 @@ namespace dygita {
 
 namespace {
 
-using Joined = std::unordered_set<FacetKey, FacetKeyHash>;
-
 constexpr size_t most_pieces = 64;  // that are held against each other, two by two
 
 std::string in_mm(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
@@ -26,8 +24,8 @@ bool is_from_file(const Mesh& mesh) { return mesh.has_cells() && mesh.source.fin
 
 // Facets of a part that an interface joins to others of the same part, and those of which an equation joins a node to
 // another one of it.
-Joined joined_to_itself(const Mesh& mesh, const std::vector<Surface>& surfaces, int part) {
-  Joined joined;
+FacetKeys joined_to_itself(const Mesh& mesh, const std::vector<Surface>& surfaces, int part) {
+  FacetKeys joined;
   std::set<int> in_equations;
   for (const Surface& surface : surfaces)
     if (surface.wall && surface.facing.is_of_sums() && surface.part_1 == part && surface.facing.side_1.n_shares(0) > 1)
@@ -62,7 +60,7 @@ std::string text_of_contact(const std::vector<LoosePiece>& pieces, const Vec3& p
 }
 
 // What is wrong with a part's mesh; empty: nothing.
-std::string text_of_seam(const Substructure& part, const Joined& joined) {
+std::string text_of_seam(const Substructure& part, const FacetKeys& joined) {
   const Mesh& mesh = *part.mesh;
   const std::vector<LoosePiece> pieces = loose_pieces(mesh);
   if (const std::optional<Seam> seam = find_seam(mesh, joined)) {

@@ -29,4 +29,10 @@ LawPtr make_law(const std::string& word, const LawArguments& arguments) {
   return entry->make(arguments);
 }
 
+double friction_of(const Law& law) {
+  for (const LawParameter& parameter : law.parameters())
+    if (parameter.name == "friction") return std::get<double>(parameter.value);
+  return 0.0;
+}
+
 }  // namespace dygita

@@ -123,4 +123,7 @@ LawPtr example_of(const LawEntry& entry);
 // The law of a word; CHECKs that there is one, and that the arguments are those it takes.
 LawPtr make_law(const std::string& word, const LawArguments& arguments = {});
 
+// Its parameter "friction"; 0 where it has none.
+double friction_of(const Law& law);
+
 }  // namespace dygita

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <unordered_set>
 
 #include "base/error.hpp"
 #include "meeting/mortar.hpp"
 #include "meeting/overlap.hpp"
+#include "mesh/facet_keys.hpp"
 
 namespace dygita {
 
@@ -33,7 +33,7 @@ void refuse_same_side(const PlacedFace& side_1, const PlacedFace& side_2) {
 
 // Those of a face's facets that are among these, whose corners may go round the other way.
 std::vector<Facet> facets_among(const std::vector<Facet>& of_face, const std::vector<Facet>& these) {
-  std::unordered_set<FacetKey, FacetKeyHash> keys;
+  FacetKeys keys;
   for (const Facet& facet : these) keys.insert(facet_key(facet));
   std::vector<Facet> found;
   std::copy_if(of_face.begin(), of_face.end(), std::back_inserter(found),

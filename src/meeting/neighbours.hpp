@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "mesh/box_grid.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/facet_keys.hpp"
 
 namespace dygita {
 
@@ -14,7 +14,7 @@ namespace dygita {
 struct PlacedBody {
   const Mesh* mesh;
   Vec3 place;
-  std::unordered_set<FacetKey, FacetKeyHash> joined = {};
+  FacetKeys joined = {};
   std::unordered_set<int> joined_nodes = {};
 
   Vec3 at(int node) const { return mesh->nodes.col(node) + place; }

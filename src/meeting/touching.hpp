@@ -3,13 +3,11 @@
 
 #include <memory>
 #include <optional>
-#include <unordered_set>
 
 #include "meeting/facing.hpp"
+#include "mesh/facet_keys.hpp"
 
 namespace dygita {
-
-using FacetKeys = std::unordered_set<FacetKey, FacetKeyHash>;
 
 // The outside of a body, or some of its facets, by smooth surfaces.
 class Outside {

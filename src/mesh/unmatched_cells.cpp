@@ -105,7 +105,7 @@ struct BoundaryPolygons {
   std::vector<double> areas;
   std::vector<Box> boxes;
 
-  BoundaryPolygons(const Mesh& mesh, const std::unordered_set<FacetKey, FacetKeyHash>& joined) {
+  BoundaryPolygons(const Mesh& mesh, const FacetKeys& joined) {
     for (const Facet& facet : boundary_facets(mesh.blocks)) {
       if (joined.contains(facet_key(facet))) continue;
       Polygon x(3, facet.corners().size());
@@ -180,7 +180,7 @@ void check_shared_facets(const Mesh& mesh, const std::string& name) {
         name, first->first.name(), first->second.name(), middle(first->second), more(misfits.n_unlike, "such facets")));
 }
 
-std::optional<Seam> find_seam(const Mesh& mesh, const std::unordered_set<FacetKey, FacetKeyHash>& joined) {
+std::optional<Seam> find_seam(const Mesh& mesh, const FacetKeys& joined) {
   const BoundaryPolygons boundary(mesh, joined);
   if (boundary.facets.empty()) return {};
   const PolygonGrid grid(boundary.polygons, mean_diameter(boundary.polygons));

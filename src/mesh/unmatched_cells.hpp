@@ -3,9 +3,8 @@
 #pragma once
 
 #include <optional>
-#include <unordered_set>
 
-#include "mesh/mesh.hpp"
+#include "mesh/facet_keys.hpp"
 
 namespace dygita {
 
@@ -23,7 +22,7 @@ struct Seam {
 };
 
 // The seam of a mesh, but for facets in `joined`. None where each facet of the boundary is by itself.
-std::optional<Seam> find_seam(const Mesh& mesh, const std::unordered_set<FacetKey, FacetKeyHash>& joined);
+std::optional<Seam> find_seam(const Mesh& mesh, const FacetKeys& joined);
 
 // "cell 3 (hex8)", to which a facet of the boundary belongs.
 std::string cell_with(const Mesh& mesh, const Facet& facet);

@@ -38,14 +38,14 @@ struct Instant {
     if (distant) distant->complete(s);
     return state.surfaces[static_cast<size_t>(s)];
   }
-  // f(state) of every point of it that this rank keeps; together they keep all.
+  // f(index, state) of every point of it that this rank keeps; together they keep all.
   template <class Function>
   void for_each_point_here(int s, Function&& f) const {
     const std::vector<LawState>& points = state.surfaces[static_cast<size_t>(s)].points;
-    if (!distant)
-      for (const LawState& point : points) f(point);
+    if (distant)
+      for (const int i : distant->here(s)) f(i, points[static_cast<size_t>(i)]);
     else
-      for (const int point : distant->here(s)) f(points[static_cast<size_t>(point)]);
+      for (size_t i = 0; i < points.size(); ++i) f(static_cast<int>(i), points[i]);
   }
   // 3 x n_nodes each: m, m/s, m/s^2 (mean over the increment).
   Points displacement(int part) const {

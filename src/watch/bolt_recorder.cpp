@@ -26,12 +26,6 @@ std::optional<Tightened> tightened(const Step& step, const Interface* interface)
   return std::nullopt;
 }
 
-double friction_in(const Law& law) {
-  for (const LawParameter& parameter : law.parameters())
-    if (parameter.name == "friction") return std::get<double>(parameter.value);
-  return 0.0;
-}
-
 }  // namespace
 
 BoltRecorder::BoltRecorder(const Problem& problem) {
@@ -98,7 +92,7 @@ void BoltRecorder::find_clamped(const Instant& start) {
     const size_t first = clamped_.size(), n = static_cast<size_t>(contact.n_points());
     for (const auto& [b, axis] : bolts) {
       // Of a part of a bolt, its mirror images cancel some of the shear, which is not told apart: no slip margin.
-      const double friction = is_whole_[b] ? friction_in(contact.declared_law()) : 0.0;
+      const double friction = is_whole_[b] ? friction_of(contact.declared_law()) : 0.0;
       clamped_.push_back({b, surface, friction, ratings_[b]->safety, std::vector<char>(n, 0)});
     }
     for (size_t i = 0; i < n; ++i) {

@@ -14,27 +14,11 @@ bool is_contact(const Surface& surface) {
   return shown.gap && shown.states;
 }
 
-double friction_of(const Law& law) {
-  for (const LawParameter& parameter : law.parameters())
-    if (parameter.name == "friction") return std::get<double>(parameter.value);
-  return 0.0;
-}
-
 // The largest so far and where; of equal ones the first.
 void raise(double value, const Vec3& place, double& largest, Vec3& at) {
   if (!(value > largest)) return;
   largest = value;
   at = place;
-}
-
-// f(index, state) of every point that this rank keeps.
-template <class Function>
-void for_each_here(const Instant& instant, int s, Function&& f) {
-  const std::vector<LawState>& points = instant.state.surfaces[static_cast<size_t>(s)].points;
-  if (instant.distant)
-    for (const int i : instant.distant->here(s)) f(i, points[static_cast<size_t>(i)]);
-  else
-    for (size_t i = 0; i < points.size(); ++i) f(static_cast<int>(i), points[i]);
 }
 
 }  // namespace
@@ -64,7 +48,7 @@ void ContactRecorder::begin_step(const Instant& start) {
       const Surface& surface = (*start.model.surfaces)[static_cast<size_t>(s)];
       if (!takes_part(*start.model.problem, *start.model.step, surface)) continue;
       Watched watched{c, s, std::vector<Start>(static_cast<size_t>(surface.n_points()))};
-      for_each_here(start, s, [&](int i, const LawState& point) {
+      start.for_each_point_here(s, [&](int i, const LawState& point) {
         watched.points[static_cast<size_t>(i)] = {point.slip, point.status != PointState::open};
       });
       watched_.push_back(std::move(watched));
@@ -76,7 +60,7 @@ void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Su
   const Surface& surface = (*instant.model.surfaces)[static_cast<size_t>(watched.surface)];
   const Law& law = surface.declared_law();
   if (instant.state.released[static_cast<size_t>(watched.surface)]) return;
-  for_each_here(instant, watched.surface, [&](int i, const LawState& point) {
+  instant.for_each_point_here(watched.surface, [&](int i, const LawState& point) {
     const Start& start = watched.points[static_cast<size_t>(i)];
     const Vec3 place = surface.facing.places.col(i);
     if (start.is_closed) raise(law.opening(point), place, step.opening, step.opening_at);

@@ -16,7 +16,7 @@ namespace {
 double depth_of(const Instant& instant, int surface) {
   double depth = 0.0;
   const Law& law = (*instant.model.surfaces)[static_cast<size_t>(surface)].declared_law();
-  instant.for_each_point_here(surface, [&](const LawState& point) {
+  instant.for_each_point_here(surface, [&](int, const LawState& point) {
     if (point.gap < -depth && law.tangent(point, true).stiffness[0] == 0.0) depth = -point.gap;
   });
   return depth;

@@ -41,7 +41,7 @@ void LinkedParts::find_forces(const Instant& instant) {
     const Surface& surface = surfaces[static_cast<size_t>(s)];
     if (sets_.root(surface.part_1) == sets_.root(other(surface))) continue;
     double force = 0.0;
-    instant.for_each_point_here(s, [&](const LawState& point) { force += point.force.lpNorm<1>(); });
+    instant.for_each_point_here(s, [&](int, const LawState& point) { force += point.force.lpNorm<1>(); });
     open.push_back(s);
     forces.push_back(force);
   }

@@ -33,12 +33,6 @@ struct Push {
   }
 };
 
-double friction_of(const Law& law) {
-  for (const LawParameter& parameter : law.parameters())
-    if (parameter.name == "friction") return std::get<double>(parameter.value);
-  return 0.0;
-}
-
 class RigidBodies {
  public:
   explicit RigidBodies(const Instant& instant)

@@ -1,0 +1,40 @@
+// Bodies that are joined in a ring around a line: which of the ties would close it (manual, eq. J5).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "mesh/polygons.hpp"
+#include "model/meeting.hpp"
+
+namespace dygita {
+
+class Rings {
+ public:
+  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings);
+
+  // At x, are both sides of a tie joined by interfaces that come before it?
+  std::function<bool(const Vec3&)> closed_by(int i) const;
+
+ private:
+  struct Entry {
+    int interface;
+    std::vector<Polygon> polygons;
+    double tolerance;  // m
+    Vec3 low, high;
+  };
+
+  void add(int i, const Face& face, const std::vector<Facet>& facets);
+  bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
+  // What is no tie, and of ties the larger; of those as large the first by the names of what it joins: in whatever
+  // order they are declared, and wherever the assembly stands.
+  bool comes_before(int i, int j) const;
+  static bool has(const Entry& entry, const Vec3& x);
+
+  const Problem& problem_;
+  std::vector<Entry> entries_;  // side after side of the interfaces, in their order
+  std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
+};
+
+}  // namespace dygita
