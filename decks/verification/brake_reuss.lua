@@ -7,13 +7,14 @@
 --    +-----------------------+  |   |   |          bot             |
 --                            +--o---o---o--------------------------+
 --
--- Run        dygita run decks/verification/brake_reuss.lua        --set push=50 --set only=6
+-- Run        dygita run decks/verification/brake_reuss.lua        --set push=50 --set only=6        --set push=50 --set spread=1
+--            --set push=50 --set only=8 --set ring=0.1        --set push=30 --set only=8 --set cycle=1
 -- See        out/brake_reuss/<case>/sticks.pvd                 the modes
 -- Expect     the table of manual/measured-joints.md; the page says what agrees and what does not
 -- Read next  modes of your own joint: manual/howto/modes.md
 -- Mesh       meshes/brake_reuss.msh, made by meshes/make_brake_reuss.py; published data: see the page
 
-local p = param{ fine = 0, only = 0, mu = 0.2, scale = 1, radius = 1.365*mm, density = 1.371e6, height = 28*um, force = 12249, push = 0, slip = 0.03, ring = 0, dt = 100*us }
+local p = param{ fine = 0, only = 0, mu = 0.2, scale = 1, radius = 1.365*mm, density = 1.371e6, height = 28*um, force = 12249, push = 0, slip = 0.03, spread = 0, cycle = 0, ring = 0, dt = 100*us }
 
 local file = mesh.gmsh{ file = p.fine == 1 and "../../meshes/brake_reuss_fine.msh" or "../../meshes/brake_reuss.msh" }
 local asperities = { radius = p.radius, density = p.density, height = p.height }
@@ -33,33 +34,39 @@ local function beam(case)
   local modes, joint = output.modes{ name = "sticks", n = 12, after = tighten }, output.joint{ name = "joint", on = lap }
   local steps, outputs, backbone = { tighten }, { modes, joint }, nil
   if case.push then
-    steps[2] = step.static{ name = "push", after = tighten, increments = 16, loads = { load.mode{ mode = modes, number = 7, parts = { top, bot }, value = case.push } } }
-    backbone = output.backbone{ name = "backbone", mode = modes, number = 7, steps = steps[2] }
+    local made = {}
+    for i, value in ipairs(p.cycle == 1 and { case.push, -case.push, case.push } or { case.push }) do    -- a whole cycle: there, to the other side and back
+      made[i] = step.static{ name = ({ "push", "pull", "back" })[i], after = steps[#steps], increments = i == 1 and 16 or 32,
+        loads = { load.mode{ mode = modes, number = 7, parts = { top, bot }, value = value } } }
+      steps[#steps + 1] = made[i]
+    end
+    backbone = output.backbone{ name = "backbone", mode = modes, number = 7, steps = made }
     outputs[3] = backbone
   end
   local tip, down
-  if case.push and p.ring > 0 then    -- let go
-    steps[3] = step.dynamic{ name = "ring", after = steps[2], duration = p.ring, dt = p.dt }
+  if case.strike then    -- half a period, which sets the one mode in motion
+    local blow = 0.5 / 168
+    steps[2] = step.dynamic{ name = "ring", after = tighten, duration = p.ring, dt = p.dt,
+      loads = { load.mode{ mode = modes, number = 7, parts = { top, bot }, value = history.half_sine{ peak = case.strike / 1.57, duration = blow } } } }
     tip = output.history{ name = "tip", on = top:where(function(x, y, z) return x < -359*mm end), quantity = "acceleration", direction = { 0, 0, 1 } }
-    down = output.ringdown{ name = "down", of = tip, band = { 100, 240 } }
+    down = output.ringdown{ name = "down", of = tip, from = blow, band = { 100, 240 } }
     table.insert(outputs, tip)
     table.insert(outputs, down)
   end
   local result = problem{
     name = "brake_reuss", substructures = { top, bot }, interfaces = { lap, shanks }, steps = steps, outputs = outputs,
-    solver = solver.latin{ static_steps = "assembled" },
-  }:run{ case = case.name }
+    solver = solver.latin{ static_steps = "assembled", anderson = case.strike and 20, search_direction = case.strike and 0.25 },    -- as soft as the beam is: a third fewer iterations
+  }:run{ case = case.name, at = case.at }
   local line = {}
   for i = 7, 10 do line[i - 6] = ("%.2f"):format(result[modes].frequency[i]) end
   print(("%s (Hz): %s; open %.0f of %.0f mm^2"):format(case.name, table.concat(line, " "), result[joint].open_area.last / mm^2,
     (result[joint].open_area.last + result[joint].stick_area.last + result[joint].slip_area.last) / mm^2))
-  if not backbone then return end
-  local b = result[backbone]
-  for i = 1, #b.acceleration do print(("  %6.2f m/s^2   %7.2f Hz   %.3f %%"):format(b.acceleration[i], b.frequency[i], 100 * b.damping[i])) end
-  if not down then return end
-  local d = result[down]
-  print "ringing down"
-  for i = 1, #d.amplitude do print(("  %6.2f m/s^2   %7.2f Hz   %.3f %%"):format(d.amplitude[i], d.frequency[i], 100 * d.damping[i])) end
+  local function list(amplitude, of)
+    for i = 1, #amplitude do print(("  %6.2f m/s^2   %7.2f Hz   %.3f %%"):format(amplitude[i], of.frequency[i], 100 * of.damping[i])) end
+  end
+  if backbone then list(result[backbone].acceleration, result[backbone]) end
+  if backbone and p.cycle == 1 then print(("  whole cycle: %.3f %%"):format(100 * result[backbone].cycle_damping)) end
+  if down then list(result[down].amplitude, result[down]) end
 end
 
 -- As in the published model of the measured beam.
@@ -78,8 +85,27 @@ local cases = {
 if p.push > 0 then
   cases[6] = with{ name = "backbone, flat" }
   cases[7] = with{ name = "backbone, measured form, rough", form = measured, rough = true }
-  for i = 6, 7 do cases[i].mu, cases[i].push = p.slip, p.push end
+  cases[8] = with{ name = "backbone, flat, rough", rough = true }
+  for i = 6, 8 do cases[i].mu, cases[i].push = p.slip, p.push end
+end
+-- Torque, friction and form of one assembly and the next, one at a time and the two extremes of all; the same
+-- with the published model's friction.
+if p.spread > 0 then
+  cases = {}
+  for i, at in ipairs{ { 1, 0.2, 1 }, { 0.75, 0.2, 1 }, { 1.25, 0.2, 1 }, { 1, 0.1, 1 }, { 1, 0.3, 1 }, { 1, 0.2, 0.5 }, { 1, 0.2, 1.5 },
+    { 0.75, 0.1, 0.5 }, { 1.25, 0.3, 1.5 }, { 1, p.slip, 1 }, { 0.75, p.slip, 1 }, { 1.25, p.slip, 1 }, { 1, p.slip, 0.5 }, { 1, p.slip, 1.5 } } do
+    local torque, mu, form = at[1], at[2], at[3]
+    cases[i] = with{ name = ("torque %.0f %%, friction %.2f, form %.1f"):format(100 * torque, mu, form), rough = true, push = p.push,
+      form = function(x) return form * measured(x) end, at = { torque = torque, friction = mu, form = form } }
+    cases[i].mu, cases[i].force = mu, torque * p.force
+  end
 end
 for i, case in ipairs(cases) do
-  if p.only == 0 or p.only == i then beam(case) end
+  if p.only == 0 or p.only == i then
+    beam(case)
+    if case.push and p.ring > 0 then    -- the same mode in time
+      case.name, case.push, case.strike = case.name:gsub("backbone", "ring-down"), nil, 1.5 * case.push
+      beam(case)
+    end
+  end
 end
