@@ -227,6 +227,17 @@ words[1][5] = {
   arguments = model_file_arguments("CQUAD4", "CONM2, RBE2, RBE3, CBUSH"),
 }
 
+words[1][6] = {
+  "unv", makes = "model file",
+  doc = "A universal file (.unv) of Salome, NX, I-DEAS or gmsh, read by this program: parts by groups of solid elements (else by property), faces by groups of elements of surfaces, "
+    .. "regions by groups of nodes; `file:part \"name\"` is one of its parts, `file:report()` what it has not used.",
+  arguments = {
+    { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "as dataset 164 says, else 1", doc = "length of one unit of the file: `unit = mm` where dataset 164 is wrong, as Salome's is" },
+    { "skip", type = "texts", or_single = true, default_doc = "none", doc = "numbers of types of elements that are left out, such as { \"117\" }" },
+  },
+}
+
 local function damping()
   return { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
       doc = "stiffness-proportional damping (a time, not a ratio), or { mass = (1/s), stiffness = (s) }",

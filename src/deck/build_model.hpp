@@ -40,6 +40,7 @@ Content build_superelement(const Declaration& declaration);
 Content build_interface(const Declaration& declaration);  // by the law of its word
 Content build_abaqus(const Declaration& declaration);
 Content build_nastran(const Declaration& declaration);
+Content build_unv(const Declaration& declaration);
 Damping damping_in(const LuaArguments& arguments);
 
 template <class T>

@@ -230,6 +230,7 @@ const Builders& part_builders() {
         {"mesh.step", build_step_mesh},
         {"mesh.abaqus", build_abaqus},
         {"mesh.nastran", build_nastran},
+        {"mesh.unv", build_unv},
         {"substructure", build_substructure},
         {"substructure.rigid", build_rigid},
         {"substructure.superelement", build_superelement},

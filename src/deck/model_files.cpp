@@ -74,7 +74,8 @@ Content build_model_file(const Declaration& d, const char* word, Reader read) {
     options.units = file_units(a.text("units"));
     options.unit = options.units->length;
   }
-  if (a.has("unit")) options.unit = a.number("unit");
+  options.has_unit = a.has("unit");
+  if (options.has_unit) options.unit = a.number("unit");
   if (a.has("skip")) options.skip = a.texts("skip");
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(options.file, ignored);
@@ -94,6 +95,7 @@ Content build_model_file(const Declaration& d, const char* word, Reader read) {
 
 Content build_abaqus(const Declaration& d) { return build_model_file(d, "mesh.abaqus", ForeignMeshes::of_abaqus); }
 Content build_nastran(const Declaration& d) { return build_model_file(d, "mesh.nastran", ForeignMeshes::of_nastran); }
+Content build_unv(const Declaration& d) { return build_model_file(d, "mesh.unv", ForeignMeshes::of_unv); }
 
 Object file_material(DeckState& state, const Object& self, lua_State* L, const Origin& origin) {
   const auto& file = *self.as<std::shared_ptr<const ForeignMeshes>>();

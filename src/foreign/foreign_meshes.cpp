@@ -9,6 +9,7 @@
 #include "base/names.hpp"
 #include "foreign/abaqus_steps.hpp"
 #include "foreign/nastran_cases.hpp"
+#include "foreign/unv_model.hpp"
 
 namespace dygita {
 
@@ -33,6 +34,12 @@ std::shared_ptr<const ForeignMeshes> ForeignMeshes::of_nastran(const ForeignOpti
   NastranModel read({options.file, options.unit, options.skip});
   analysis_of(read);
   return std::shared_ptr<const ForeignMeshes>(new ForeignMeshes(std::move(read.model()), options));
+}
+
+std::shared_ptr<const ForeignMeshes> ForeignMeshes::of_unv(const ForeignOptions& options) {
+  const std::optional<double> unit = options.has_unit ? std::optional(options.unit) : std::nullopt;
+  return std::shared_ptr<const ForeignMeshes>(
+      new ForeignMeshes(unv_model({options.file, unit, options.skip}), options));
 }
 
 ForeignMeshes::ForeignMeshes(ForeignModel model, const ForeignOptions& options) : units_(options.units) {

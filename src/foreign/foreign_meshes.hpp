@@ -9,6 +9,7 @@ namespace dygita {
 struct ForeignOptions {
   std::string file;
   double unit = 1.0;               // m
+  bool has_unit = false;           // has the user given it?
   std::optional<FileUnits> units;  // what materials need
   std::vector<std::string> skip;   // types of elements that are left out
 };
@@ -29,6 +30,9 @@ class ForeignMeshes : public NamedParts {
 
   // A .bdf, .nas or .dat of Nastran.
   static std::shared_ptr<const ForeignMeshes> of_nastran(const ForeignOptions& options);
+
+  // A universal file, .unv.
+  static std::shared_ptr<const ForeignMeshes> of_unv(const ForeignOptions& options);
 
   // Throws InputError: unknown (with the closest), without elasticity, not that of the file, no units.
   FileMaterial material(const std::string& name) const;

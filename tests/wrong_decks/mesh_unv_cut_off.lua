@@ -1,0 +1,1 @@
+local file = mesh.unv{ file = "cut_off.unv" }
