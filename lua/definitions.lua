@@ -117,7 +117,7 @@ local function put_constructor(path, entry)
   end
   put_doc(entry)
   put("---@param arguments%s %s", needs_argument(entry.arguments) and "" or "?", arguments_of(path))
-  put("---@return %s", entry.expands and class_of "substructure" .. "[]|" .. class_of "list of bolts" or class_of(path) .. (entry.or_list and "|" .. class_of(entry.or_list) or ""))
+  put("---@return %s", entry.returns or entry.expands and class_of "substructure" .. "[]|" .. class_of "list of bolts" or class_of(path) .. (entry.or_list and "|" .. class_of(entry.or_list) or ""))
   put("function %s(arguments) end\n", path)
 end
 

@@ -406,6 +406,23 @@ words.pattern = {
   },
 }
 
+words.field = {
+  name = "field", doc = "Functions of a place from files.",
+  {
+    "file", makes = "field", is_scan = true, keeps_frame = true, returns = "fun(x: number, y: number, z: number): number",
+    doc = "A measured face, for `gap`: a function of x, y, z (m) that answers a height (m) from a file of three columns, two places and a height, in any order of points; separators and titles with units as in history.file. "
+      .. "Between points the plane that fits those around best, weighted by exp(-(distance/smooth)^2). A gap is where a face is low: `gap = function(x, y, z) return -scan(x, y, z) end` of a height of material.",
+    arguments = {
+      { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+      { "plane", type = "choice", choices = { "xy", "yz", "zx", "yx", "zy", "xz" }, default = "xy", doc = "the axes along which the places are, in the order of the columns" },
+      { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "of the titles", doc = "length of one unit of the places" },
+      { "height_unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "of the titles", doc = "length of one unit of the heights" },
+      { "smooth", type = "number", unit = "m", range = { 0, 1 }, default = 0, doc = "length over which heights are smoothed; 0: the distance between points" },
+      frame "in whose axes the places are",
+    },
+  },
+}
+
 local bolts = native.module "bolts"
 local bolt_material = { "material", type = "object", kinds = { "material" }, required = true, doc = "of all its parts" }
 local function bolt_size() return { "size", type = "choice", choices = bolts.sizes, required = true, doc = "of the thread" } end
@@ -1276,7 +1293,7 @@ local reading = {
   { "ensemble.converged", "whether all members converged: statistics leave out those that did not" },
 }
 
-for _, name in ipairs { "frame", "pattern", "bolt" } do words[#words + 1], words[name] = words[name], nil end
+for _, name in ipairs { "frame", "pattern", "bolt", "field" } do words[#words + 1], words[name] = words[name], nil end
 
 -- Fields that a deck can read of bolts, frames and lists.
 local fields = {

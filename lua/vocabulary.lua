@@ -92,6 +92,30 @@ local function expanded(entry)
   end
 end
 
+-- A measured face: a function of a place that answers its height (m).
+local function scanned(entry)
+  return function(...)
+    local line = native.line()
+    local given = check.call(entry, line, ...)
+    local scan, frame = native.scan(given, line), given.frame
+    local first, second = given.plane:byte(1) - 119, given.plane:byte(2) - 119  -- 1, 2, 3 of x, y, z
+    return function(x, y, z)
+      local p = { x, y, z }
+      if frame then
+        local o = frame.origin
+        local d = { x - o[1], y - o[2], z - o[3] }
+        for i, axis in ipairs { frame.x, frame.y, frame.z } do p[i] = d[1] * axis[1] + d[2] * axis[2] + d[3] * axis[3] end
+      end
+      local height = native.height_of(scan, p[first], p[second])
+      if not height then
+        fail(line, ("%s: '%s' has no point near %s = %g mm, %s = %g mm"):format(entry.path, given.file, given.plane:sub(1, 1), 1e3 * p[first],
+          given.plane:sub(2, 2), 1e3 * p[second]), "a place is seen within `smooth` of a point: is `unit`, `plane` or `frame` another?")
+      end
+      return height
+    end
+  end
+end
+
 local function not_built(path)
   return function() fail(native.line(), ("%s is not built yet in dygita %s"):format(path, native.version)) end
 end
@@ -106,7 +130,7 @@ for _, word in ipairs(schema.words) do
     local members = {}
     for _, entry in ipairs(word) do
       entry.path = name .. "." .. entry[1]
-      members[entry[1]] = entry.expands and expanded(entry) or entry.is_bolt and bolts.constructor(entry, check.call) or constructor(entry)
+      members[entry[1]] = entry.expands and expanded(entry) or entry.is_scan and scanned(entry) or entry.is_bolt and bolts.constructor(entry, check.call) or constructor(entry)
     end
     for _, later in ipairs(word.later or {}) do members[later] = not_built(name .. "." .. later) end
     words[name] = environment.read_only(members, name, word.call and constructor(word.call))

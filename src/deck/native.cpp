@@ -1,6 +1,8 @@
 // The functions that lua/*.lua call on the C++ side.
 #include <spdlog/fmt/fmt.h>
 
+#include <filesystem>
+
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "base/warnings.hpp"
@@ -13,6 +15,7 @@
 #include "deck/model_files.hpp"
 #include "deck/pick_places.hpp"
 #include "deck/results.hpp"
+#include "signal/scan.hpp"
 
 namespace dygita {
 
@@ -227,6 +230,41 @@ int call_method(LuaState& lua, lua_State* L) {
   return 1;
 }
 
+// scan(arguments, line): a measured face.
+int scan(LuaState& lua, lua_State* L) {
+  DeckState& state = DeckState::of(lua);
+  const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 2)));
+  const LuaArguments a(L, 1, "field.file", origin, state.folder);
+  ScanOptions options{a.file("file"), {}, {}, a.number("smooth")};
+  if (a.has("unit")) options.unit = a.number("unit");
+  if (a.has("height_unit")) options.height_unit = a.number("height_unit");
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(options.file, ignored);
+  constexpr std::uintmax_t bytes_per_byte = 8;  // lines, points
+  const auto bytes = static_cast<size_t>(bytes_per_byte * (ignored ? 0 : size));
+  lua.reserve("field.file", bytes);
+  std::shared_ptr<const Scan> made;
+  try {
+    made = std::make_shared<const Scan>(options);
+  } catch (const InputError& error) {
+    throw InputError(origin, error.what());
+  }
+  lua.hold_reserved(made, bytes);
+  say(fmt::format("field.file '{}': {} points, smoothed over {:.3g} mm", made->file(), made->n_points(),
+                  1e3 * made->smooth()));
+  push_object(L, {"field", "field.file", "", -1, made});
+  return 1;
+}
+
+// height_of(scan, u, v): m; nothing where there is no point near.
+int height_of(LuaState&, lua_State* L) {
+  const auto height =
+      the_object_at(L, 1).as<std::shared_ptr<const Scan>>()->at(luaL_checknumber(L, 2), luaL_checknumber(L, 3));
+  if (!height) return 0;
+  lua_pushnumber(L, *height);
+  return 1;
+}
+
 // has_no_values(): the deck is only checked, and has read results.
 int has_no_values(LuaState& lua, lua_State* L) {
   lua_pushboolean(L, DeckState::of(lua).has_read_hollow);
@@ -304,6 +342,8 @@ void push_native(DeckState& state) {
                                        {"value_of", guarded<value_of_history>},
                                        {"extremes", guarded<extremes_of_history>},
                                        {"call", guarded<call_method>},
+                                       {"scan", guarded<scan>},
+                                       {"height_of", guarded<height_of>},
                                        {"touching", guarded<touching_pairs>},
                                        {"nearest_apart", guarded<nearest_parts>},
                                        {"holes", guarded<holes_of_parts>},

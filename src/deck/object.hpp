@@ -13,6 +13,7 @@
 #include "model/model.hpp"
 #include "result/result.hpp"
 #include "result/series.hpp"
+#include "signal/scan.hpp"
 
 namespace dygita {
 
@@ -61,7 +62,8 @@ using Content =
                  InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>, StepPtr,
                  std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
                  std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
-                 OutputData, PartData, std::shared_ptr<const Series>, EnsembleResultPtr, Sample, Drives>;
+                 OutputData, PartData, std::shared_ptr<const Series>, EnsembleResultPtr, Sample, Drives,
+                 std::shared_ptr<const Scan>>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`

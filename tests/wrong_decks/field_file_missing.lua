@@ -1,0 +1,1 @@
+local scan = field.file{ plane = "xy" }
