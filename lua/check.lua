@@ -397,6 +397,14 @@ function types.table(call, argument, value, label)
   return check.arguments(call, argument.fields, value, label .. ".")
 end
 
+-- A list of tables of the same fields.
+function types.tables(call, argument, value, label)
+  local checked = {}
+  if check_list(call, value, label, "a list of tables") == 0 then fail(call, ("'%s' is empty"):format(label), argument.doc) end
+  for i = 1, #value do checked[i] = types.table(call, argument, value[i], ("%s[%d]"):format(label, i)) end
+  return checked
+end
+
 -- A side of several interfaces: parts by name, or a list.
 local function parts_of(call, value, label)
   local list = types.objects(call, { kinds = { "substructure" }, at_least = 1, or_single = true, or_names = true }, value, label)

@@ -43,6 +43,7 @@ function type_of(a)
   if a.type == "choice" then text = union(a.choices, function(word) return ('"%s"'):format(word) end) end
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
   if a.type == "table" or a.type == "compliance" then text = inline_table(a.fields) end
+  if a.type == "tables" then text = inline_table(a.fields) .. "[]" end
   if a.type == "placement" then text = "dygita.vector|" .. inline_table(a.fields) end
   if a.type == "orientation" then
     text = "[dygita.vector, dygita.vector]|(fun(x: number, y: number, z: number): dygita.vector, dygita.vector)|" .. inline_table(a.fields)

@@ -10,7 +10,7 @@ local function number(x) return ("%g"):format(x) end
 
 local function type_of(argument)
   local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", orientation = "{ axis1, axis2 }, function(x, y, z) or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
-                  settings = "table of numbers", compliance = "table", pairs = "list of pairs", distributions = "table of distributions", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
+                  settings = "table of numbers", compliance = "table", tables = "list of tables", pairs = "list of pairs", distributions = "table of distributions", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
                   choice = "text", choices = "list of texts", directions = "text, or { x, y, z } by name" }
   local text = names[argument.type] or argument.type
   if argument.kinds then text = table.concat(argument.kinds, " or ") .. (argument.or_names and " or name" or "") end

@@ -19,6 +19,7 @@
 --   specification         a file, or a list of { frequency, level }
 --   pairs                 a list of pairs of numbers that rise, named by `of`
 --   table                 a table of the named `fields`
+--   tables                a list of tables of the named `fields`
 --   compliance            the same, of rough faces
 --   orientation           two axes, a function of a place, or a table of the named `fields`
 --   value                 a number, a history or a function of time
@@ -259,6 +260,23 @@ local function contraction(along, pulled)
            required = true, doc = ("Poisson's ratio: contraction along %s of a bar pulled along %s; nu%s%s is nu%s%s e%s/e%s"):format(along, pulled, along, pulled, pulled, along, along, pulled) }
 end
 
+local function bears(name, doc, required)
+  return { name, type = "number", unit = "Pa", range = { 1e3, 1e12 }, required = required, default_doc = not required and "required by \"tsai_wu\"" or nil, doc = doc }
+end
+local function coupling(axes) return { "f" .. axes, type = "number", range = { -1, 1 }, default = -0.5, doc = "coupling of the stresses along these axes (Tsai-Wu), as a share of its bound" } end
+
+local strength = { "strength", type = "table",
+  doc = "stresses that it bears along its axes: the run then monitors the failure index of its parts (1: failure; it grows with the load) and states the largest; the material stays elastic",
+  fields = {
+    bears("xt", "tension along axis 1", true), bears("xc", "compression along axis 1, positive", true),
+    bears("yt", "tension along axis 2", true), bears("yc", "compression along axis 2, positive", true),
+    bears("zt", "tension along axis 3"), bears("zc", "compression along axis 3, positive"),
+    bears("s12", "shear in the plane of axes 1 and 2", true), bears("s13", "shear in the plane of axes 1 and 3"), bears("s23", "shear in the plane of axes 2 and 3", true),
+    coupling "12", coupling "13", coupling "23",
+  } }
+local criterion = { "criterion", type = "choice", choices = { "tsai_wu", "hashin" }, default = "tsai_wu", with = "strength",
+  doc = "of failure: \"hashin\" tells fibres from matrix, in tension and compression; it takes directions across the fibres as alike (xt, xc, yt, yc, s12, s23)" }
+
 words[2] = {
   name = "material", doc = "Materials of substructures.",
   {
@@ -282,7 +300,22 @@ words[2] = {
       modulus("e1", "Young's modulus along axis 1"), modulus("e2", "Young's modulus along axis 2"), modulus("e3", "Young's modulus along axis 3"),
       contraction("2", "1"), contraction("3", "1"), contraction("3", "2"),
       modulus("g12", "shear modulus in the plane of axes 1 and 2"), modulus("g13", "shear modulus in the plane of axes 1 and 3"), modulus("g23", "shear modulus in the plane of axes 2 and 3"),
-      density, damping_time, damping_ratio, damping_frequency,
+      density, strength, criterion, damping_time, damping_ratio, damping_frequency,
+    },
+  },
+  {
+    "laminate", makes = "material",
+    doc = "A layup of plies in one cell: hexahedra, each from face to face of the layup along axis 3 of the `orientation`. Strains in the plane are those of the cell, stresses across "
+      .. "the plies go on from ply to ply; tension, bending and their coupling are those of lamination theory.",
+    arguments = {
+      name_of "material",
+      { "plies", type = "tables", required = true, doc = "from the lowest along axis 3 to the highest, `{ material = ply, thickness = 0.125*mm, angle = 45*deg }`",
+        fields = {
+          { "material", type = "object", kinds = { "material" }, required = true, doc = "what it is made of; of `material.elastic` a `yield` counts as its strength" },
+          { "thickness", type = "number", unit = "m", range = { 1e-7, 10 }, required = true, doc = "thickness; the sum is that of the cell" },
+          { "angle", type = "number", range = { -7, 7 }, in_radians = true, default = 0, doc = "of its axis 1 from axis 1 of the layup towards axis 2, in radians: `45*deg`" },
+        } },
+      damping_time, damping_ratio, damping_frequency,
     },
   },
 }
@@ -929,8 +962,9 @@ local function spectrum(arguments, per_octave)
   return arguments
 end
 
-local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "pressure" }
+local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "material_stress", "failure_index", "pressure" }
 local fields = { "displacement", "velocity", "stress", "von_mises", "stress_error" }
+local all_fields = { "displacement", "velocity", "stress", "von_mises", "stress_error", "material_stress", "failure_index" }
 
 words[10] = {
   name = "output", doc = "Requested results: files in the output directory, and data for the deck (`result[output]`).",
@@ -938,19 +972,21 @@ words[10] = {
     "vtk", makes = "output", doc = "Frames for ParaView.",
     arguments = {
       { "frames", type = "integer", range = { 1, 100000 }, default = 50, doc = "frames per step" },
-      { "fields", type = "choices", choices = fields, default = fields, doc = "fields of the parts" },
+      { "fields", type = "choices", choices = all_fields, default = fields,
+        doc = "fields of the parts; material_stress (along the axes of a material with directions: 11, 22, 33, 12, 23, 13) and failure_index are not a number in parts of other materials" },
     },
   },
   {
     "history", makes = "output",
     doc = "A quantity against time, as the mean over a face or a region. Columns: the quantity if it is one number or has a "
-      .. "`direction`, else x, y, z (of stress xx, yy, zz, xy, yz, zx).",
+      .. "`direction`, else x, y, z (of stress xx, yy, zz, xy, yz, zx; of material_stress s11, s22, s33, s12, s23, s13).",
     arguments = {
       name_of "output",
       on({ "face", "region", "interface", "support" }, "where; `pressure` requires an interface or a wall"),
       { "quantity", type = "choice", choices = quantities, required = true, doc = "recorded quantity" },
       { "direction", in_frame = "direction", type = "vector", doc = "its component along this direction; its length does not matter" },
       frame "of `direction`",
+      { "ply", type = "integer", range = { 1, 10000 }, default_doc = "of the failure index the worst", doc = "of a laminate, 1 the lowest: material_stress is that in its middle, failure_index the larger of both its faces" },
     },
   },
   {
@@ -1193,6 +1229,7 @@ local methods = {
       { "name", type = "text", required = true, doc = "the material's name, in `file:material{ name = \"EL\", density = 7850 }`" },
       { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, default_doc = "the file's", doc = "mass per volume" },
       { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 }, doc = "yield stress that the run monitors, of an isotropic material" },
+      strength, criterion,
       damping_time, damping_ratio, damping_frequency,
     },
   },

@@ -95,6 +95,17 @@ std::map<std::string, double> LuaArguments::settings(const char* key) const {
   return values;
 }
 
+void LuaArguments::each(const char* key, const std::function<void(const LuaArguments&)>& visit) const {
+  push(key);
+  const auto n = static_cast<lua_Integer>(lua_rawlen(L_, -1));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(L_, -1, i);
+    visit(LuaArguments(L_, -1, fmt::format("{}[{}]", key, i), origin_, folder_));
+    lua_pop(L_, 1);
+  }
+  lua_pop(L_, 1);
+}
+
 std::array<Vec3, 2> LuaArguments::two_vectors_at(const char* key, const Vec3& x) const {
   push(key);
   for (const double coordinate : x) lua_pushnumber(L_, coordinate);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <lua.hpp>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class LuaArguments : public ModelArguments {
   const Object& object(const char* key) const;
   std::vector<const Object*> objects(const char* key) const;  // one alone counts as a list
   // The file that an argument names; relative paths start at the deck's folder. Throws InputError if there is none.
+  // Each table of a list.
+  void each(const char* key, const std::function<void(const LuaArguments&)>& visit) const;
   std::string file(const char* key) const;
 
   // The objects of a list as what they hold.

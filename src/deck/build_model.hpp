@@ -42,6 +42,8 @@ Content build_abaqus(const Declaration& declaration);
 Content build_nastran(const Declaration& declaration);
 Content build_unv(const Declaration& declaration);
 Damping damping_in(const LuaArguments& arguments);
+// Of `strength` and `criterion`.
+std::shared_ptr<const Strength> strength_in(const LuaArguments& arguments);
 
 template <class T>
 std::shared_ptr<T> new_named(const Declaration& declaration) {

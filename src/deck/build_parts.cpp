@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
@@ -14,6 +15,7 @@
 #include "law/law.hpp"
 #include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
+#include "mesh/layers.hpp"
 #include "mesh/mesh_limits.hpp"
 #include "model/extent.hpp"
 #include "ranks/machine_copies.hpp"
@@ -142,6 +144,11 @@ Damping damping_in(const LuaArguments& a) {
   return {damping.at("mass"), damping.at("stiffness")};
 }
 
+std::shared_ptr<const Strength> strength_in(const LuaArguments& a) {
+  return std::make_shared<const Strength>(a.settings("strength"),
+                                          a.text("criterion") == "hashin" ? Criterion::hashin : Criterion::tsai_wu);
+}
+
 namespace {
 
 // Of the entry of a word, from all numbers of the declaration.
@@ -151,6 +158,44 @@ Content build_material(const Declaration& d) {
   auto material = std::make_shared<Material>(Material{entry->make(d.arguments.plain_numbers()), {}});
   material->name = d.arguments.text("name");
   if (d.arguments.has("yield")) material->yield = d.arguments.number("yield");
+  if (d.arguments.has("strength")) material->strength = strength_in(d.arguments);
+  material->damping = damping_in(d.arguments);
+  return std::shared_ptr<const Material>(material);
+}
+
+// What a ply bears; of von Mises' the equal of Tsai and Wu.
+std::shared_ptr<const Strength> strength_of(const Material& material) {
+  if (!material.yield) return material.strength;
+  const double y = *material.yield, s = y / std::sqrt(3.0);
+  return std::make_shared<const Strength>(
+      std::map<std::string, double>{
+          {"xt", y}, {"xc", y}, {"yt", y}, {"yc", y}, {"zt", y}, {"zc", y}, {"s12", s}, {"s13", s}, {"s23", s}},
+      Criterion::tsai_wu);
+}
+
+void check_ply(const Material& material, int ply, bool has_strength) {
+  const std::string its = fmt::format("'plies[{}]': material '{}'", ply, material.name);
+  if (material.layup) throw InputError(its + " is a laminate itself\n    list its plies");
+  if (material.damping.mass != 0.0 || material.damping.stiffness != 0.0)
+    throw InputError(its + " has a damping of its own\n    give it to the laminate");
+  if ((material.strength || material.yield) != has_strength)
+    throw InputError(
+        fmt::format("{} has {}strength, unlike that of the first ply\n    all plies have a 'strength' (or "
+                    "'yield'), or none has",
+                    its, has_strength ? "no " : "a "));
+}
+
+Content build_laminate(const Declaration& d) {
+  std::vector<PlyOf> plies;
+  bool has_strength = false;
+  d.arguments.each("plies", [&](const LuaArguments& one) {
+    const auto& material = *one.object("material").as<std::shared_ptr<const Material>>();
+    if (plies.empty()) has_strength = material.strength || material.yield;
+    check_ply(material, static_cast<int>(plies.size()) + 1, has_strength);
+    plies.push_back({material, strength_of(material), one.number("thickness"), one.number("angle")});
+  });
+  auto material = std::make_shared<Material>(Material{laminate(plies), {}});
+  material->name = d.arguments.text("name");
   material->damping = damping_in(d.arguments);
   return std::shared_ptr<const Material>(material);
 }
@@ -184,6 +229,7 @@ Content build_substructure(const Declaration& d) {
         fmt::format("'orientation' of a part of material '{}', which is the same in all directions\n    "
                     "material.orthotropic has axes",
                     material->name));
+  if (material->layup) check_layers(*part->mesh, material->layup->thickness());
   set_place(d.arguments.numbers("place"), *part);
   share_on_machine(part->mesh, part->mesh->arrays());
   part->velocity = d.arguments.vector("velocity");
@@ -231,6 +277,7 @@ const Builders& part_builders() {
         {"mesh.abaqus", build_abaqus},
         {"mesh.nastran", build_nastran},
         {"mesh.unv", build_unv},
+        {"material.laminate", build_laminate},
         {"substructure", build_substructure},
         {"substructure.rigid", build_rigid},
         {"substructure.superelement", build_superelement},

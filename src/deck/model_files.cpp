@@ -61,6 +61,14 @@ std::shared_ptr<const Material> made_of(FileMaterial given, const LuaArguments* 
           fmt::format("material '{}': 'yield' is of materials that are the same in all directions", given.name));
     material->yield = a->number("yield");
   }
+  if (a->has("strength")) {
+    if (material->is_isotropic())
+      throw InputError(
+          fmt::format("material '{}': 'strength' is of materials with axes, 'yield' of those that are the "
+                      "same in all directions",
+                      given.name));
+    material->strength = strength_in(*a);
+  }
   return material;
 }
 

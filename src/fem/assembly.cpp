@@ -7,6 +7,7 @@
 #include "fem/cell_loop.hpp"
 #include "fem/cell_tensor.hpp"
 #include "fem/frequency.hpp"
+#include "fem/layered_cell.hpp"
 #include "fem/node_pattern.hpp"
 
 namespace dygita {
@@ -37,6 +38,16 @@ std::vector<int> models(const Points& nodes, const CellBlock& block) {
     if (!is_copy) last = x;
   }
   return model;
+}
+
+// Of any material, one by one.
+template <class Cell>
+Stiffness<Cell::n_nodes> stiffness_in(const Elastic& material, const CellBlock& block, int i,
+                                      const Nodes<Cell::n_nodes>& x) {
+  if constexpr (Cell::row.n_corners == 8)
+    if (material.layup)
+      return LayeredCell(block.type, x, block.axes[static_cast<size_t>(i)], *material.layup).stiffness();
+  return Cell::stiffness(x, tensor_in(material, block, i));
 }
 
 // Computes cells ahead, as many as there are lanes.
@@ -95,7 +106,7 @@ struct AssemblyKernel {
   void compute_one(int i) {
     batch[n_batch++] = i;
     const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
-    const Stiffness<n> stiffness = Cell::stiffness(x, tensor_in(material, block, i));
+    const Stiffness<n> stiffness = stiffness_in<Cell>(material, block, i, x);
     const Eigen::Matrix<double, n, 1> volumes = node_volumes<Cell>(x);
     for (int a = 0; a < n; ++a) {
       matrices.volume[a][0] = volumes[a];
@@ -147,7 +158,7 @@ void see_cells(const Mesh& mesh, const CellBlock& block, const Elastic& material
     if (model[i] != i) continue;
     const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
     const Eigen::Matrix<double, n, 1> mass = material.density * node_volumes<Cell>(x);
-    highest.see(Cell::stiffness(x, tensor_in(material, block, i)), mass);
+    highest.see(stiffness_in<Cell>(material, block, i, x), mass);
   }
 }
 

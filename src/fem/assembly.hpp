@@ -20,7 +20,8 @@ BodyMatrices assemble(const Mesh& mesh, const Elastic& material, SparseMatrix* m
 // differences.
 double max_frequency(const Mesh& mesh, const Elastic& material);
 
-// Stress (Pa) at nodes, mean of the adjacent cells' corner values. displacement: 3 x n_nodes.
+// Stress (Pa) at nodes, mean of the adjacent cells' corner values, of a layup in the ply there. displacement: 3 x
+// n_nodes.
 Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& displacement);
 
 // von Mises stress (Pa) of each column.

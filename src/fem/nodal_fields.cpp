@@ -3,6 +3,7 @@
 #include "fem/assembly.hpp"
 #include "fem/cell_loop.hpp"
 #include "fem/cell_stress.hpp"
+#include "fem/own_stress.hpp"
 
 namespace dygita {
 
@@ -74,6 +75,7 @@ Vec summed_volumes(const Mesh& mesh) {
 }  // namespace
 
 Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& displacement) {
+  if (material.layup) return layered_stress(mesh, material, displacement);
   const NodeOwners owners = node_owners(mesh);
   Tensors stress = Tensors::Zero(6, mesh.n_nodes());
   Vec n_cells = Vec::Zero(mesh.n_nodes());

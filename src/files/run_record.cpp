@@ -33,6 +33,12 @@ Json libraries(const RunIdentity& identity) {
   return json;
 }
 
+Json strength(const Strength& own) {
+  Json json = own.given();
+  json["criterion"] = own.criterion() == Criterion::hashin ? "hashin" : "tsai_wu";
+  return json;
+}
+
 // What a unit slip shows in: mass (kg), bounding box (m), material (SI).
 Json body(const Substructure& part, double volume) {
   const Elastic& material = part.material;
@@ -49,16 +55,27 @@ Json body(const Substructure& part, double volume) {
                {"density", material.density}};
   for (const MaterialConstant& constant : material.constants()) json[constant.name] = constant.value;
   if (part.yield) json["yield"] = *part.yield;
+  if (material.strength) json["strength"] = strength(*material.strength);
+  if (!material.layup) return json;
+  for (int i = 0; i < material.layup->n_plies(); ++i) {
+    const Ply& ply = material.layup->ply(i);
+    Json own = {{"material", ply.material}, {"thickness", ply.thickness}, {"angle", ply.angle}};
+    if (ply.strength) own["strength"] = strength(*ply.strength);
+    json["plies"].push_back(own);
+  }
   return json;
 }
 
 Json stress(const PartStress& peak, const Problem& problem) {
-  return {{"von_mises", peak.von_mises},
-          {"margin", peak.margin()},
-          {"volume_above_yield", peak.above},
-          {"step", peak.step >= 0 ? problem.steps[static_cast<size_t>(peak.step)]->name : ""},
-          {"time", peak.time},
-          {"place", {peak.place[0], peak.place[1], peak.place[2]}}};
+  Json json = {{peak.is_index ? "failure_index" : "von_mises", peak.largest},
+               {"margin", peak.margin()},
+               {peak.is_index ? "volume_above_failure" : "volume_above_yield", peak.above},
+               {"step", peak.step >= 0 ? problem.steps[static_cast<size_t>(peak.step)]->name : ""},
+               {"time", peak.time},
+               {"place", {peak.place[0], peak.place[1], peak.place[2]}}};
+  if (peak.ply >= 0) json["ply"] = peak.ply + 1;
+  if (!peak.mode.empty()) json["mode"] = peak.mode;
+  return json;
 }
 
 Json substructures(const Problem& problem, const RunResult& result, const RunIdentity& identity) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "material/layup.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -96,12 +97,15 @@ MaterialKey Elastic::key() const {
   size_t at = 1;
   for (int i = 0; i < 6; ++i)
     for (int j = i; j < 6; ++j) key[at++] = d(i, j);
+  if (layup) key[at] = layup->digest();
   return key;
 }
 
 double Elastic::young() const {
   return std::max({tensor_.young(Vec3::UnitX()), tensor_.young(Vec3::UnitY()), tensor_.young(Vec3::UnitZ())});
 }
+
+bool Elastic::has_strength() const { return layup ? layup->has_strengths() : strength != nullptr; }
 
 Vec3 Elastic::wave_speeds(const Vec3& normal) const {
   return (principal_axes(tensor_.acoustic(normal)).values / density).cwiseSqrt().reverse();

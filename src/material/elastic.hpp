@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,14 +25,19 @@ struct MaterialConstant {
   double value = 0.0;
 };
 
-// Density and stiffness: bodies of equal meshes and keys have equal matrices.
-using MaterialKey = std::array<double, 22>;
+// Density, stiffness and layup: bodies of equal meshes and keys have equal matrices.
+using MaterialKey = std::array<double, 23>;
+
+class Layup;
+class Strength;
 
 class Elastic {
  public:
   std::string name;
   double density = 0.0;  // kg/m^3
   Damping damping;
+  std::shared_ptr<const Strength> strength;  // null: none is given
+  std::shared_ptr<const Layup> layup;        // of plies, whose mean the stiffness is; null: the same all through
 
   Elastic() = default;
   // The same in all directions.
@@ -54,6 +60,9 @@ class Elastic {
   double s_wave_speed() const { return std::sqrt(smallest_ / density); }  // m/s, no wave is slower
   // m/s, of plane waves with a unit normal, in the material's own axes: decreasing.
   Vec3 wave_speeds(const Vec3& normal) const;
+
+  // Is it, or each of its plies, told what it bears?
+  bool has_strength() const;
 
   // Hooke's matrix (6 x 6, Pa) for strains xx yy zz 2xy 2yz 2zx, in the material's own axes.
   Mat6 hooke() const { return tensor_.stiffness(); }

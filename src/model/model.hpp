@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "law/law_fwd.hpp"
 #include "material/elastic.hpp"
+#include "material/layup.hpp"
 #include "meeting/meeting_options.hpp"
 #include "mesh/mesh.hpp"
 #include "model/support.hpp"

@@ -186,10 +186,11 @@ void Collector::finish(RunResult& result) {
   parts_.turned().finish(problem_, result);
   parts_.gaps().finish(result);
   result.stresses = parts_.stresses().take();
+  // What is not a number stays.
   for (const PartStress& stress : result.stresses) {
-    std::optional<double>& least = result.figures.yield_margin;
-    if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();
-    if (std::isnan(*least)) break;
+    std::optional<double>& worst = stress.is_index ? result.figures.failure_index : result.figures.yield_margin;
+    const double value = stress.is_index ? stress.largest : stress.margin();
+    if (!worst || std::isnan(value) || (stress.is_index ? value > *worst : value < *worst)) worst = value;
   }
   finish_books(result);
   add_error_figures(parts_.errors(), problem_, result);

@@ -213,7 +213,8 @@ Finding of_yield(const Json& record) {
   const auto margin = [](const Json& part) { return number(part.at("stress"), "margin"); };
   std::vector<std::string> beyond;
   for (const Json& part : parts) {
-    if (!part.contains("stress") || number(part["stress"], "von_mises") == 0.0) continue;
+    if (!part.contains("stress") || !part["stress"].contains("von_mises")) continue;
+    if (number(part["stress"], "von_mises") == 0.0) continue;
     if (!least || !(margin(part) >= margin(*least))) least = &part;
     if (!(margin(part) >= limit::yield_margin)) beyond.push_back(text(part, "name"));
   }
@@ -233,6 +234,28 @@ Finding of_yield(const Json& record) {
   return finding;
 }
 
+Finding of_failure(const Json& record) {
+  const Json parts = record.value("substructures", Json::array());
+  const Json* worst = nullptr;
+  std::vector<std::string> beyond;
+  const auto index = [](const Json& part) { return number(part.at("stress"), "failure_index"); };
+  for (const Json& part : parts) {
+    if (!part.contains("stress") || !part["stress"].contains("failure_index")) continue;
+    if (!worst || !(index(part) <= index(*worst))) worst = &part;
+    if (!(index(part) <= 1.0)) beyond.push_back(text(part, "name"));
+  }
+  if (!worst) return {};
+  const std::string value = std::isfinite(index(*worst)) ? plain_number(index(*worst), 3) : "not a number";
+  Finding finding;
+  finding.cards = {{"largest failure index", value, "in '" + text(*worst, "name") + "', 1 at failure",
+                    beyond.empty() ? Grade::fine : Grade::poor}};
+  finding.sentence = beyond.empty() ? fmt::format("No composite fails: the largest failure index is {}, in '{}'.",
+                                                  value, text(*worst, "name"))
+                                    : fmt::format("The failure index passes 1 in {}: the largest is {}, in '{}'.",
+                                                  list_of_names(beyond), value, text(*worst, "name"));
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Finding> findings_of(const RunFolder& run, const ReportRequest& request) {
@@ -240,7 +263,8 @@ std::vector<Finding> findings_of(const RunFolder& run, const ReportRequest& requ
   const Json& steps = record.at("steps");
   const bool has_motion =
       std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
-  return {of_spectra(run, request), of_bolts(record, has_motion), of_contacts(record), of_yield(record)};
+  return {of_spectra(run, request), of_bolts(record, has_motion), of_contacts(record), of_yield(record),
+          of_failure(record)};
 }
 
 }  // namespace dygita

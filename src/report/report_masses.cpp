@@ -104,8 +104,8 @@ std::string table_of_materials(const Json& parts) {
   for (const Json& part : parts) {
     if (part.contains("condensed")) continue;
     Json key = {text(part, "material")};
-    for (const char* value :
-         {"young", "poisson", "e1", "e2", "e3", "nu12", "nu13", "nu23", "g12", "g13", "g23", "density", "yield"})
+    for (const char* value : {"young", "poisson", "e1", "e2", "e3", "nu12", "nu13", "nu23", "g12", "g13", "g23",
+                              "density", "yield", "strength", "plies"})
       key.push_back(part.value(value, Json()));
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
     seen.push_back(key);

@@ -98,7 +98,8 @@ void add_spectra(const RunFolder& run, const TimeAxis& time, const ReportRequest
 double rank(const Json& stress) {
   const double margin = number(stress, "margin");
   if (std::isfinite(margin)) return margin;
-  return number(stress, "von_mises") == 0.0 ? std::numeric_limits<double>::max() : -2.0;
+  return stress.value("von_mises", stress.value("failure_index", Json())) == 0.0 ? std::numeric_limits<double>::max()
+                                                                                 : -2.0;
 }
 
 double last_of(const Table& table, const char* column) {
@@ -148,50 +149,95 @@ std::string peaks_section(const RunFolder& run, const TimeAxis& time, const Repo
   return doubted_section(run, "Peaks", body);
 }
 
-std::string margins_section(const RunFolder& run) {
-  Cells rows;
-  std::string unwatched;
+namespace {
+
+std::string where_of(const Json& stress) {
+  std::string where;
+  for (const Json& x : stress.value("place", Json::array()))
+    where += (where.empty() ? "" : ", ") + plain_number(1e3 * without_round_off(x.get<double>()));
+  return "(" + where + ")";
+}
+
+std::string instant_of(const Json& stress) {
+  const bool moves = number(stress, "time") > 0.0;
+  return text(stress, "step") + (moves ? ", " + with_unit(number(stress, "time"), "s") : "");
+}
+
+// The parts whose stress has a key, the least margin first; names of the others that have cells.
+std::vector<Json> watched_by(const RunFolder& run, const char* key, std::string& others) {
   std::vector<Json> watched;
   for (const Json& part : run.record().value("substructures", Json::array())) {
-    if (part.contains("stress"))
+    if (part.contains("stress") && part["stress"].contains(key))
       watched.push_back(part);
-    else
-      unwatched += (unwatched.empty() ? "" : ", ") + text(part, "name");
+    else if (!part.contains("stress"))
+      others += (others.empty() ? "" : ", ") + text(part, "name");
   }
   std::stable_sort(watched.begin(), watched.end(),
                    [](const Json& a, const Json& b) { return rank(a["stress"]) < rank(b["stress"]); });
-  for (const Json& part : watched) {
-    const Json& stress = part["stress"];
-    const Json place = stress.value("place", Json::array());
-    std::string where;
-    for (const Json& x : place)
-      where += (where.empty() ? "" : ", ") + plain_number(1e3 * without_round_off(x.get<double>()));
-    const bool moves = number(stress, "time") > 0.0;
-    rows.push_back({text(part, "name"), text(part, "material"), TableCell(number(part, "yield"), "Pa"),
-                    TableCell(number(stress, "von_mises"), "Pa"), TableCell(100.0 * number(stress, "margin"), "%"),
-                    TableCell(100.0 * number(stress, "volume_above_yield"), "%", 2),
-                    text(stress, "step") + (moves ? ", " + with_unit(number(stress, "time"), "s") : ""),
-                    "(" + where + ")"});
-  }
-  if (rows.empty()) return "";
+  return watched;
+}
+
+std::string folded_table(const std::vector<std::string>& header, const Cells& rows) {
   constexpr size_t most_open = 15;
   const std::vector<std::vector<std::string>> all = in_common_units(rows);
-  const auto table = [](auto first, auto last) {
-    return html::table(
-        {"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
-        {first, last}, true);
-  };
+  const auto table = [&](auto first, auto last) { return html::table(header, {first, last}, true); };
   const auto middle = all.begin() + static_cast<long>(std::min(most_open, all.size()));
   std::string body = table(all.begin(), middle);
   if (middle != all.end())
     body += html::folded(fmt::format("The other {} parts", all.end() - middle), table(middle, all.end()));
+  return body;
+}
+
+// Of materials with strengths along their axes.
+std::string failure_section(const RunFolder& run) {
+  Cells rows;
+  std::string others;
+  for (const Json& part : watched_by(run, "failure_index", others)) {
+    const Json& stress = part["stress"];
+    std::string how = stress.contains("ply") ? fmt::format("ply {:.0f}", number(stress, "ply")) : "";
+    const std::string mode = text(stress, "mode");
+    how += (how.empty() || mode.empty() ? "" : ", ") + mode;
+    rows.push_back({text(part, "name"), text(part, "material"), TableCell(number(stress, "failure_index"), "", 4),
+                    TableCell(100.0 * number(stress, "margin"), "%"),
+                    TableCell(100.0 * number(stress, "volume_above_failure"), "%", 2), how.empty() ? "–" : how,
+                    instant_of(stress), where_of(stress)});
+  }
+  if (rows.empty()) return "";
   return doubted_section(
-      run, "Stress against yield",
-      body + html::paragraph(
-                 "Margin: yield / von Mises − 1; the material model stays elastic beyond yield. Stresses are nodal "
-                 "averages; at edges, corners and contact rims they are mesh-dependent, so check the volume beyond "
-                 "yield." +
-                 (unwatched.empty() ? "" : " Not monitored, since their material has no yield: " + unwatched + ".")));
+      run, "Failure of composites",
+      folded_table(
+          {"part", "material", "largest failure index", "margin", "volume beyond", "what fails", "when", "where (mm)"},
+          rows) +
+          html::paragraph("The failure index grows with the load and is 1 at failure by the criterion of the material; "
+                          "margin: 1 / index − 1. The material model stays elastic beyond. Stresses are nodal averages "
+                          "along the axes of the material."));
+}
+
+}  // namespace
+
+std::string margins_section(const RunFolder& run) {
+  Cells rows;
+  std::string unwatched;
+  for (const Json& part : watched_by(run, "von_mises", unwatched)) {
+    const Json& stress = part["stress"];
+    rows.push_back({text(part, "name"), text(part, "material"), TableCell(number(part, "yield"), "Pa"),
+                    TableCell(number(stress, "von_mises"), "Pa"), TableCell(100.0 * number(stress, "margin"), "%"),
+                    TableCell(100.0 * number(stress, "volume_above_yield"), "%", 2), instant_of(stress),
+                    where_of(stress)});
+  }
+  if (rows.empty()) return failure_section(run);
+  return doubted_section(
+             run, "Stress against yield",
+             folded_table(
+                 {"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
+                 rows) +
+                 html::paragraph(
+                     "Margin: yield / von Mises − 1; the material model stays elastic beyond yield. Stresses are nodal "
+                     "averages; at edges, corners and contact rims they are mesh-dependent, so check the volume beyond "
+                     "yield." +
+                     (unwatched.empty() ? ""
+                                        : " Not monitored, since their material has no yield: " + unwatched + "."))) +
+         failure_section(run);
 }
 
 }  // namespace dygita

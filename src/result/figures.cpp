@@ -36,6 +36,7 @@ constexpr Labelled labels[] = {
     {&Figures::static_interface_error, "interface constitutive-relation error, static [J]"},
     {&Figures::mean_frequency, "mean frequency of the motion [Hz]"},
     {&Figures::yield_margin, "smallest margin against yield [1]"},
+    {&Figures::failure_index, "largest failure index [1]"},
     {&Figures::passes, "passes over the run"},
     {&Figures::iterations_of_passes, "iterations of all passes"},
     {&Figures::spectra_moved, "spectra moved in the last pass [dB]"},

@@ -31,7 +31,8 @@ struct Figures : OwnFigures {
       largest_rotation;                      // contact cells, degrees; where small displacements do not hold
   std::optional<double> state_file;          // MB
   std::optional<double> earlier_iterations;  // before the run was continued
-  std::optional<double> yield_margin;  // yield / von Mises - 1, the smallest of the parts whose material has a yield
+  std::optional<double> yield_margin;   // yield / von Mises - 1, the smallest of the parts whose material has a yield
+  std::optional<double> failure_index;  // the largest of the parts whose material has strengths
 };
 
 // One of them: `&Figures::energy_imbalance`.

@@ -127,16 +127,20 @@ struct BoltSummary {
   }
 };
 
-// The largest von Mises stress that a watched substructure has met (stress_recorder.hpp).
+// The largest von Mises stress that a watched substructure has met, or failure index where its material has directions
+// (stress_recorder.hpp).
 struct PartStress {
   int part = -1;              // index in problem.substructures
-  double von_mises = 0.0;     // Pa, at a node
-  double yield = 0.0;         // Pa, of its material
+  bool is_index = false;      // a failure index, else a von Mises stress
+  double largest = 0.0;       // Pa or 1, at a node
+  double allowed = 0.0;       // the yield of its material, or 1
   double time = 0.0;          // s, of the run
   int step = -1;              // index in problem.steps
   Vec3 place = Vec3::Zero();  // m, of the node, undeformed
-  double above = 0.0;         // share of the volume beyond yield at once, at most
-  double margin() const { return yield / von_mises - 1.0; }
+  double above = 0.0;         // share of the volume beyond that at once, at most
+  int ply = -1;               // where the index was met, from 0; -1: no layup
+  std::string mode;           // of failure, where the criterion tells; empty: none
+  double margin() const { return allowed / largest - 1.0; }
 };
 
 struct Scenes;
@@ -175,7 +179,7 @@ struct RunResult {
   std::map<std::string, double> seconds;  // "assemble", "factor", "forward", "iterate", "backward", "output", ...
   Figures figures;
   std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it
-  std::vector<PartStress> stresses;      // of the substructures whose material has a yield, in their order
+  std::vector<PartStress> stresses;      // of the substructures whose material has a yield or strengths, in their order
   std::vector<FreeStep> free;            // of the steps
 
   const Findings& findings_of(const Output& output) const;  // empty where it told nothing

@@ -122,31 +122,54 @@ std::vector<std::string> base_lines(const Problem& problem) {
   return lines;
 }
 
+namespace {
+
+// " in ply 3 (matrix in tension)".
+std::string failing(const PartStress& peak) {
+  return (peak.ply >= 0 ? fmt::format(" in ply {}", peak.ply + 1) : "") +
+         (peak.mode.empty() ? "" : " (" + peak.mode + ")");
+}
+
+}  // namespace
+
 void warn_of_stresses(const Problem& problem, const RunResult& result) {
   for (const PartStress& peak : result.stresses) {
     const Substructure& part = *problem.substructures[static_cast<size_t>(peak.part)];
-    if (std::isnan(peak.von_mises))
-      warn(fmt::format("the stress of substructure '{}' is not a number: its margin against yield is not known",
-                       part.name));
+    if (std::isnan(peak.largest))
+      warn(fmt::format("the stress of substructure '{}' is not a number: its margin against {} is not known", part.name,
+                       peak.is_index ? "failure" : "yield"));
     const double share = 100.0 * peak.above;
-    if (peak.margin() < limit::yield_margin)
+    const bool is_beyond = peak.margin() < limit::yield_margin;
+    if (is_beyond && peak.is_index)
+      warn(fmt::format(
+          "substructure '{}' reaches a failure index of {:.4g}, above 1: '{}' fails{}, in up to {} % of its volume at "
+          "once. The material model stays elastic; peaks at edges and corners are mesh-dependent",
+          part.name, peak.largest, part.material.name, failing(peak),
+          share > 9.95 ? fmt::format("{:.0f}", share) : fmt::format("{:.2g}", share)));
+    else if (is_beyond)
       warn(fmt::format(
           "substructure '{}' reaches {:.4g} MPa (von Mises), above the yield of {:.4g} MPa of '{}': up to {} % of its "
           "volume at once. The material model stays elastic; peaks at edges and corners are mesh-dependent",
-          part.name, peak.von_mises / 1e6, peak.yield / 1e6, part.material.name,
+          part.name, peak.largest / 1e6, peak.allowed / 1e6, part.material.name,
           share > 9.95 ? fmt::format("{:.0f}", share) : fmt::format("{:.2g}", share)));
   }
 }
 
-// "stress: smallest margin against yield 0.32, in 'rod' (485 MPa of 640)".
+// "  smallest margin against yield 0.32, in 'rod' (485 MPa of 640)", "  largest failure index 0.7, in 'skin' in ply 3".
 std::string stress_line(const Problem& problem, const RunResult& result) {
-  const PartStress* least = nullptr;
-  for (const PartStress& peak : result.stresses)
-    if (!least || !(peak.margin() >= least->margin())) least = &peak;
-  if (!least) return "";
-  return fmt::format("  smallest margin against yield {:.3g}, in '{}' ({:.4g} MPa of {:.4g})", least->margin(),
-                     problem.substructures[static_cast<size_t>(least->part)]->name, least->von_mises / 1e6,
-                     least->yield / 1e6);
+  std::string line;
+  for (const bool is_index : {false, true}) {
+    const PartStress* least = nullptr;
+    for (const PartStress& peak : result.stresses)
+      if (peak.is_index == is_index && (!least || !(peak.margin() >= least->margin()))) least = &peak;
+    if (!least) continue;
+    const std::string& name = problem.substructures[static_cast<size_t>(least->part)]->name;
+    if (!line.empty()) line += "\n";
+    line += is_index ? fmt::format("  largest failure index {:.3g}, in '{}'{}", least->largest, name, failing(*least))
+                     : fmt::format("  smallest margin against yield {:.3g}, in '{}' ({:.4g} MPa of {:.4g})",
+                                   least->margin(), name, least->largest / 1e6, least->allowed / 1e6);
+  }
+  return line;
 }
 
 std::string surface_line(const Surface& surface) {

@@ -22,7 +22,8 @@ std::vector<std::string> base_lines(const Problem& problem);
 
 // Warns of each substructure that leaves the elastic range of its material.
 void warn_of_stresses(const Problem& problem, const RunResult& result);
-// "  smallest margin against yield 0.32, in 'rod' (485 MPa of 640)"; empty where no material has a yield.
+// "  smallest margin against yield 0.32, in 'rod' (485 MPa of 640)", and a line with the largest failure index; empty
+// where no material has a yield or strengths.
 std::string stress_line(const Problem& problem, const RunResult& result);
 
 // An interface or a wall: its points, its area, and on which side its points are where meshes do not match.

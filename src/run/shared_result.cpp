@@ -60,12 +60,15 @@ class Archive {
   }
   void operator()(PartStress& peak) {
     (*this)(peak.part);
-    (*this)(peak.von_mises);
-    (*this)(peak.yield);
+    (*this)(peak.is_index);
+    (*this)(peak.largest);
+    (*this)(peak.allowed);
     (*this)(peak.time);
     (*this)(peak.step);
     (*this)(peak.place);
     (*this)(peak.above);
+    (*this)(peak.ply);
+    (*this)(peak.mode);
   }
 
  private:

@@ -2,8 +2,9 @@
 #include "watch/frames.hpp"
 
 #include <algorithm>
+#include <limits>
 
-#include "fem/assembly.hpp"
+#include "fem/own_stress.hpp"
 #include "fem/stress_error.hpp"
 #include "law/law.hpp"
 #include "watch/growth.hpp"
@@ -11,6 +12,8 @@
 namespace dygita {
 
 namespace {
+
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();  // of a part whose material has no such field
 
 InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMotion& motion) {
   const Surface& surface = (*instant.model.surfaces)[s];
@@ -67,7 +70,8 @@ Frame make_frame(const Instant& instant, const std::vector<std::string>& fields,
 }
 
 int components_of(const std::string& field) {
-  return field == "stress" ? 6 : field == "von_mises" || field == "stress_error" ? 1 : 3;
+  if (field == "stress" || field == "material_stress") return 6;
+  return field == "von_mises" || field == "stress_error" || field == "failure_index" ? 1 : 3;
 }
 
 void fill_part(const Mesh& mesh, const NodalMotion& motion, const std::vector<FreeCell>& free, PartFrame& frame) {
@@ -85,6 +89,12 @@ void fill_part(const Mesh& mesh, const NodalMotion& motion, const std::vector<Fr
     if (name == "acceleration") values = motion.acceleration;
     if (name == "stress") values = stress;
     if (name == "stress_error") values = stress_error(mesh, material, strained, free).at_nodes.transpose();
+    if (name == "material_stress")
+      values = material.is_isotropic() ? Mat(Mat::Constant(6, mesh.n_nodes(), not_there))
+                                       : Mat(own_stress(mesh, material, strained));
+    if (name == "failure_index")
+      values = material.has_strength() ? Mat(nodal_failure(mesh, material, strained).index.transpose())
+                                       : Mat(Mat::Constant(1, mesh.n_nodes(), not_there));
     if (name == "von_mises") values = von_mises(stress).transpose();
   }
 }

@@ -37,10 +37,11 @@ std::vector<double> of_ranks(const std::vector<int>& ranks, int n, Fill&& fill) 
 StressRecorder::StressRecorder(const Problem& problem, PartViews& views) : problem_(problem), views_(views) {
   for (size_t i = 0; i < problem.substructures.size(); ++i) {
     const Substructure& part = *problem.substructures[i];
-    if (!part.yield) continue;
+    if (!part.yield && !part.material.has_strength()) continue;
     Watched& watched = watched_.emplace_back();
     watched.peak.part = static_cast<int>(i);
-    watched.peak.yield = *part.yield;
+    watched.peak.is_index = !part.yield;
+    watched.peak.allowed = part.yield.value_or(1.0);
   }
 }
 
@@ -90,17 +91,19 @@ void StressRecorder::settle() {
 
 // What is not a number comes before all else, then the largest, of equal ones the first.
 void StressRecorder::settle_peak(Watched& watched) const {
-  constexpr int n = 8;
+  constexpr int n = 10;
   const std::vector<double> all = of_ranks(ranks_of(views_.cut(), watched.peak.part), n, [&](double* to) {
     const PartStress& own = watched.peak;
-    const double numbers[n] = {own.von_mises,
+    const double numbers[n] = {own.largest,
                                static_cast<double>(watched.met.look),
                                static_cast<double>(watched.met.node),
                                own.time,
                                static_cast<double>(own.step),
                                own.place[0],
                                own.place[1],
-                               own.place[2]};
+                               own.place[2],
+                               static_cast<double>(own.ply),
+                               static_cast<double>(watched.mode)};
     std::copy_n(numbers, n, to);
   });
   const double* worst = all.data();
@@ -109,8 +112,10 @@ void StressRecorder::settle_peak(Watched& watched) const {
     if (std::tuple(-rank(of), of[1], of[2]) < std::tuple(-rank(worst), worst[1], worst[2])) worst = of;
   }
   PartStress& peak = watched.peak;
-  peak.von_mises = worst[0], peak.time = worst[3], peak.step = static_cast<int>(worst[4]);
+  peak.largest = worst[0], peak.time = worst[3], peak.step = static_cast<int>(worst[4]);
   peak.place = {worst[5], worst[6], worst[7]};
+  peak.ply = static_cast<int>(worst[8]);
+  peak.mode = name_of(static_cast<FailureMode>(worst[9]));
 }
 
 // Volumes are added piece by piece, those of all nodes first.
@@ -155,11 +160,19 @@ std::vector<PartStress> StressRecorder::take() {
   return peaks;
 }
 
-void StressRecorder::meet(const Instant& instant, double stress, int node, Watched& watched) const {
+NodalFailure StressRecorder::measure(const Watched& watched, const Mesh& mesh, const Points& strained) const {
+  const Elastic& material = problem_.substructures[static_cast<size_t>(watched.peak.part)]->material;
+  if (watched.peak.is_index) return nodal_failure(mesh, material, strained);
+  return {von_mises(nodal_stress(mesh, material, strained)), {}, {}};
+}
+
+void StressRecorder::meet(const Instant& instant, const NodalFailure& found, int at, int node, Watched& watched) const {
   // What is not a number stays: a margin must not look fine because its stress was lost.
-  if (std::isnan(watched.peak.von_mises) || stress <= watched.peak.von_mises) return;
+  if (std::isnan(watched.peak.largest) || found.index[at] <= watched.peak.largest) return;
   const PartView& view = view_of(watched);
-  watched.peak.von_mises = stress;
+  watched.peak.largest = found.index[at];
+  if (!found.ply.empty()) watched.peak.ply = found.ply[static_cast<size_t>(at)];
+  if (!found.mode.empty()) watched.mode = found.mode[static_cast<size_t>(at)];
   watched.peak.time = instant.time();
   watched.peak.step = instant.i_step;
   watched.peak.place = view.mesh().nodes.col(node) + problem_.substructures[watched.peak.part]->place;
@@ -168,27 +181,26 @@ void StressRecorder::meet(const Instant& instant, double stress, int node, Watch
 
 double StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
   const PartView& view = view_of(watched);
-  const Elastic& material = problem_.substructures[watched.peak.part]->material;
   const Points strained =
       without_growth(views_.field(watched.peak.part), growth_at(instant, watched.peak.part), view.mesh().nodes);
-  const Vec stress = von_mises(nodal_stress(view.mesh(), material, strained));
+  const NodalFailure found = measure(watched, view.mesh(), strained);
+  const Vec& stress = found.index;
   for (std::vector<double>& above : watched.above) above.push_back(0.0);
   for (int i = 0; i < static_cast<int>(stress.size()); ++i) {
     const int owner = view.owner(i);
     if (owner < 0) continue;
-    meet(instant, stress[i], i, watched);
-    if (stress[i] > watched.peak.yield) watched.above[static_cast<size_t>(owner)].back() += watched.volumes[i];
+    meet(instant, found, i, i, watched);
+    if (stress[i] > watched.peak.allowed) watched.above[static_cast<size_t>(owner)].back() += watched.volumes[i];
   }
   watched.largest = watched.largest.cwiseMax(stress);
   return stress.size() > 0 ? stress.maxCoeff() / watched.peak.yield : 0.0;
 }
 
 void StressRecorder::look_at_hot(const Instant& instant, Watched& watched) {
-  const Elastic& material = problem_.substructures[watched.peak.part]->material;
   const Points strained =
       without_growth(hot_.displacement(watched.peak.part), growth_at(instant, watched.peak.part), watched.around.nodes);
-  const Vec stress = von_mises(nodal_stress(watched.around, material, strained));
-  for (const int i : watched.hot) meet(instant, stress[i], watched.node[i], watched);
+  const NodalFailure found = measure(watched, watched.around, strained);
+  for (const int i : watched.hot) meet(instant, found, i, watched.node[i], watched);
 }
 
 // The cells that touch the most stressed nodes: a node's stress is the mean of all cells around it.

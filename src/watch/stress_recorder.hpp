@@ -1,4 +1,5 @@
-// Watches the von Mises stress of the substructures whose material has a yield; of others nothing is computed.
+// Watches the von Mises stress of the substructures whose material has a yield and the failure index of those whose
+// material has strengths along its axes; of others nothing is computed.
 //
 // Every node at the end of each static increment and at two hundred instants of a dynamic step; in between, at every
 // increment, the nodes that had been the most stressed until then: a peak between two instants is met where stress is
@@ -7,6 +8,7 @@
 
 #include <vector>
 
+#include "fem/own_stress.hpp"
 #include "result/result.hpp"
 #include "watch/part_views.hpp"
 
@@ -38,8 +40,9 @@ class StressRecorder {
   struct Watched {
     PartStress peak;  // of the nodes that are here, and once it has settled of all
     Met met;
+    FailureMode mode = FailureMode::any;
     Vec volumes;                             // m^3, of nodes
-    Vec largest;                             // Pa, of each node so far
+    Vec largest;                             // Pa or 1, of each node so far
     std::vector<std::vector<double>> above;  // m^3, beyond yield in each piece here, at each look at all
     Mesh around;
     std::vector<int> node;  // for each of `around`, increasing
@@ -54,7 +57,9 @@ class StressRecorder {
   std::vector<int> hottest_of_all(const Watched& watched) const;
   std::vector<int> most_stressed(const Watched& watched) const;
   static void surround(const Mesh& mesh, const std::vector<int>& hot, Watched& watched);
-  void meet(const Instant& instant, double stress, int node, Watched& watched) const;
+  // Of each node of a mesh of the view.
+  NodalFailure measure(const Watched& watched, const Mesh& mesh, const Points& strained) const;
+  void meet(const Instant& instant, const NodalFailure& found, int at, int node, Watched& watched) const;
   void settle_peak(Watched& watched) const;
   void settle_above(Watched& watched) const;
   const PartView& view_of(const Watched& watched) const { return views_.of(watched.peak.part); }

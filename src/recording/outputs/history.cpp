@@ -1,7 +1,7 @@
 // output.history: a quantity against time, as the mean over a face or a region (manual, instants and means).
 #include <algorithm>
 
-#include "fem/assembly.hpp"
+#include "fem/own_stress.hpp"
 #include "model/load.hpp"
 #include "model/places.hpp"
 #include "model/refusal.hpp"
@@ -15,7 +15,16 @@ namespace dygita {
 
 namespace {
 
-enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
+enum class Quantity {
+  displacement,
+  velocity,
+  acceleration,
+  stress,
+  von_mises,
+  material_stress,
+  failure_index,
+  pressure
+};
 
 struct QuantityEntry {
   Quantity quantity;
@@ -24,7 +33,8 @@ struct QuantityEntry {
 constexpr QuantityEntry quantities[] = {
     {Quantity::displacement, "displacement", "m"},     {Quantity::velocity, "velocity", "m/s"},
     {Quantity::acceleration, "acceleration", "m/s^2"}, {Quantity::stress, "stress", "Pa"},
-    {Quantity::von_mises, "von_mises", "Pa"},          {Quantity::pressure, "pressure", "Pa"}};
+    {Quantity::von_mises, "von_mises", "Pa"},          {Quantity::material_stress, "material_stress", "Pa"},
+    {Quantity::failure_index, "failure_index", ""},    {Quantity::pressure, "pressure", "Pa"}};
 
 const QuantityEntry& quantity_named(const std::string& name) {
   for (const QuantityEntry& entry : quantities)
@@ -37,9 +47,20 @@ struct HistoryRequest {
   std::vector<Target> on;
   QuantityEntry what;
   std::optional<Vec3> direction;  // unit; none: x y z
+  std::optional<int> ply;         // from 0; none: no layup, or of the failure index all
 
   bool is_of_surfaces() const { return what.quantity == Quantity::pressure; }
-  bool is_scalar() const { return direction || what.quantity == Quantity::von_mises || is_of_surfaces(); }
+  bool is_of_axes() const {
+    return what.quantity == Quantity::material_stress || what.quantity == Quantity::failure_index;
+  }
+  bool is_of_stress() const {
+    return what.quantity == Quantity::stress || what.quantity == Quantity::von_mises || is_of_axes();
+  }
+  bool has_direction() const { return !is_of_surfaces() && !is_of_axes() && what.quantity != Quantity::von_mises; }
+  bool is_scalar() const {
+    return direction || what.quantity == Quantity::von_mises || what.quantity == Quantity::failure_index ||
+           is_of_surfaces();
+  }
   bool is_mean() const { return what.quantity == Quantity::acceleration || is_of_surfaces(); }
 };
 
@@ -75,7 +96,8 @@ class HistoryRecorder : public TableRecorder {
   std::vector<double> values(const Instant& instant) const {
     const Quantity quantity = request_.what.quantity;
     if (quantity == Quantity::pressure) return {mean_pressure(instant, request_.on)};
-    if (quantity == Quantity::stress || quantity == Quantity::von_mises) return stresses(instant);
+    if (request_.is_of_axes()) return own_stresses(instant);
+    if (request_.is_of_stress()) return stresses(instant);
     Vec3 mean = Vec3::Zero();
     for (const WeightedNodes& group : groups_) {
       const Points field = quantity == Quantity::displacement ? instant.displacement(group.part, group.nodes)
@@ -85,6 +107,28 @@ class HistoryRecorder : public TableRecorder {
     }
     if (request_.direction) return {mean.dot(*request_.direction)};
     return {mean[0], mean[1], mean[2]};
+  }
+
+  // Along the axes of the material.
+  std::vector<double> own_stresses(const Instant& instant) const {
+    const bool is_index = request_.what.quantity == Quantity::failure_index;
+    Eigen::Matrix<double, 6, 1> mean = Eigen::Matrix<double, 6, 1>::Zero();
+    double index = 0.0;
+    for (const WeightedNodes& group : groups_) {
+      const Substructure& part = *problem_.substructures[group.part];
+      const Points moved = instant.displacement(group.part);
+      const NodalFailure failure =
+          is_index ? nodal_failure(*part.mesh, part.material, moved, request_.ply.value_or(of_all_plies))
+                   : NodalFailure();
+      const Tensors stress =
+          is_index ? Tensors() : own_stress(*part.mesh, part.material, moved, request_.ply.value_or(at_its_place));
+      for (size_t i = 0; i < group.nodes.size(); ++i) {
+        if (is_index) index += group.weights[i] * failure.index[group.nodes[i]];
+        if (!is_index) mean += group.weights[i] * stress.col(group.nodes[i]);
+      }
+    }
+    if (is_index) return {index};
+    return {mean.data(), mean.data() + 6};
   }
 
   std::vector<double> stresses(const Instant& instant) const {
@@ -117,8 +161,9 @@ class HistoryRecorder : public TableRecorder {
 class HistoryOutput final : public Output {
  public:
   explicit HistoryOutput(const ModelArguments& a)
-      : Output(a), request_{a.targets("on"), quantity_named(a.text("quantity")), {}} {
+      : Output(a), request_{a.targets("on"), quantity_named(a.text("quantity")), {}, {}} {
     if (a.has("direction")) request_.direction = a.unit_vector("direction");
+    if (a.has("ply")) request_.ply = a.integer("ply") - 1;
   }
 
   void check(const Problem& problem) const override {
@@ -137,14 +182,17 @@ class HistoryOutput final : public Output {
           check::fail(problem, origin,
                       known_as() + " is on " + describe(request_.on[j]) + " and on " + describe(request_.on[i]) +
                           ", which share facets or nodes: these would count twice in the mean");
-    const bool is_of_stress =
-        request_.what.quantity == Quantity::stress || request_.what.quantity == Quantity::von_mises;
     for (const Target& target : request_.on)
-      if (const auto place = place_of(target); place && is_of_stress && !part_of(*place).mesh->has_cells())
+      if (const auto place = place_of(target); place && request_.is_of_stress() && !part_of(*place).mesh->has_cells())
         check::fail(problem, origin,
                     known_as() + ": superelement '" + part_of(*place).name + "' has no stress, since it has no cells",
                     "take its displacement, velocity or acceleration, or the pressure of an interface");
-    if (request_.direction && (request_.what.quantity == Quantity::von_mises || request_.is_of_surfaces()))
+    for (const Target& target : request_.on)
+      if (const auto place = place_of(target)) check_axes(problem, part_of(*place));
+    if (request_.ply && !request_.is_of_axes())
+      check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no 'ply'",
+                  "material_stress and failure_index have");
+    if (request_.direction && !request_.has_direction())
       check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no direction");
   }
 
@@ -170,6 +218,8 @@ class HistoryOutput final : public Output {
       add({request_.what.name});
     else if (request_.what.quantity == Quantity::stress)
       add({"xx", "yy", "zz", "xy", "yz", "zx"});
+    else if (request_.what.quantity == Quantity::material_stress)
+      add({"s11", "s22", "s33", "s12", "s23", "s13"});
     else
       add({"x", "y", "z"});
     return columns;
@@ -211,6 +261,26 @@ class HistoryOutput final : public Output {
   }
 
  private:
+  void check_axes(const Problem& problem, const Substructure& part) const {
+    if (!request_.is_of_axes()) return;
+    const std::string its = known_as() + ": material '" + part.material.name + "' of '" + part.name + "'";
+    if (part.material.is_isotropic())
+      check::fail(problem, origin, its + " is the same in all directions",
+                  "take its stress or von_mises; material.orthotropic and material.laminate have axes");
+    if (request_.what.quantity == Quantity::failure_index && !part.material.has_strength())
+      check::fail(problem, origin, its + " has no 'strength'",
+                  "strength = { xt = ..., xc = ..., ... } gives the stresses that it bears");
+    const Layup* layup = part.material.layup.get();
+    if (request_.ply && !layup) check::fail(problem, origin, its + " has no plies", "leave 'ply' out");
+    if (layup && request_.ply && *request_.ply >= layup->n_plies())
+      check::fail(problem, origin,
+                  known_as() + ": 'ply' = " + std::to_string(*request_.ply + 1) + ", and '" + part.material.name +
+                      "' has " + std::to_string(layup->n_plies()));
+    if (layup && !request_.ply && request_.what.quantity == Quantity::material_stress)
+      check::fail(problem, origin, its + " is a laminate: 'ply' is missing",
+                  "1 is the lowest along axis 3, " + std::to_string(layup->n_plies()) + " the highest");
+  }
+
   // Are all its nodes on one support that holds them, shaken or at rest, or under one load that moves them along its
   // direction?
   bool is_held(const Problem& problem, const Step& step, const FaceOrRegion& place) const {

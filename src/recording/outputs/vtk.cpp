@@ -80,6 +80,17 @@ class VtkOutput final : public Output {
     if (request_.frames < 1)
       check::fail(problem, origin,
                   "output.vtk: 'frames' = " + std::to_string(request_.frames) + ", at least 1 per step is needed");
+    const auto asks = [&](const char* field) {
+      return std::find(request_.fields.begin(), request_.fields.end(), field) != request_.fields.end();
+    };
+    const auto none = [&](const auto& has) {
+      return std::none_of(problem.substructures.begin(), problem.substructures.end(),
+                          [&](const SubstructurePtr& part) { return has(part->material); });
+    };
+    if (asks("failure_index") && none([](const Elastic& material) { return material.has_strength(); }))
+      check::fail(problem, origin, "output.vtk: no material has a 'strength', of which a 'failure_index' would be");
+    if (asks("material_stress") && none([](const Elastic& material) { return !material.is_isotropic(); }))
+      check::fail(problem, origin, "output.vtk: no material has axes, along which a 'material_stress' would be");
   }
 
   Columns columns() const override { return {}; }

@@ -1,0 +1,1 @@
+local skin = material.laminate{ name = "skin", plies = {} }
