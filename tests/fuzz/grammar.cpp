@@ -261,6 +261,7 @@ std::string value_for(const Argument& a, const Declared& declared, Random& rando
   }
   if (!a.fields.empty() && (a.type == "table" || a.type == "compliance" || chance(0.3, random)))
     return table_of(a, declared, random);
+  if (a.type == "tables") return list_of(few, [&] { return table_of(a, declared, random); });
   if (a.type == "boolean") return chance(0.5, random) ? "true" : "false";
   if (a.type == "name" || a.type == "text") return fmt::format("\"n{}\"", random() % 100);
   if (a.type == "file") return chance(0.7, random) ? "\"shock_in_g.csv\"" : "\"no.csv\"";
