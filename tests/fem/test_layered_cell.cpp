@@ -123,8 +123,8 @@ Mat3 reduced(double angle) {
   return to_own.transpose() * q * to_own;
 }
 
-// Strains of the middle and curvatures under a force and a moment along x per width, of classical lamination theory.
-Eigen::Matrix<double, 6, 1> theory(const std::vector<double>& angles, double h, double force, double moment) {
+// Forces and moments per length of strains of the middle and curvatures, of classical lamination theory.
+Eigen::Matrix<double, 6, 6> plate(const std::vector<double>& angles, double h) {
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
   const double t = h / static_cast<double>(angles.size());
   for (size_t i = 0; i < angles.size(); ++i) {
@@ -135,9 +135,14 @@ Eigen::Matrix<double, 6, 1> theory(const std::vector<double>& angles, double h, 
     stiffness.bottomLeftCorner<3, 3>() += (high * high - low * low) / 2 * q;
     stiffness.bottomRightCorner<3, 3>() += (std::pow(high, 3) - std::pow(low, 3)) / 3 * q;
   }
+  return stiffness;
+}
+
+// Its strains and curvatures under a force and a moment along x.
+Eigen::Matrix<double, 6, 1> theory(const std::vector<double>& angles, double h, double force, double moment) {
   Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
   load[0] = force, load[3] = moment;
-  return stiffness.fullPivLu().solve(load);
+  return plate(angles, h).fullPivLu().solve(load);
 }
 
 // Pulled, and bent by a traction that grows with z: coupled layups stretch, bend and twist at once.
@@ -185,6 +190,31 @@ TEST(LayeredCell, in_a_strip_is_classical_lamination_theory_to_rounding) {
         for (Eigen::Index i = 0; i < own.cols(); ++i) EXPECT_LT((own.col(i) - known).norm(), 1e-7 * p);
       }
     }
+}
+
+// Stretched, bent and twisted by a given strain and curvature, thickness as it likes: the energy of lamination theory,
+// in cells of order two as well.
+TEST(LayeredCell, stores_the_energy_of_classical_lamination_theory) {
+  const double l = 4e-3, w = 3e-3, h = 1e-3;
+  const std::vector<double> angles = {0.0, 1.5707963267948966, 0.6};
+  Eigen::Matrix<double, 6, 1> e;
+  e << 1e-3, -4e-4, 6e-4, 1.5, 0.8, -1.1;
+  for (const CellType type : {CellType::hex20, CellType::hex27}) {
+    const Mesh mesh = oriented_box(type, {l, w, h}, {2, 2, 1}, Mat3::Identity());
+    Points given(3, mesh.n_nodes());
+    Mat free = Mat::Zero(3 * mesh.n_nodes(), 2);  // thickness that grows evenly, and with z
+    for (int i = 0; i < mesh.n_nodes(); ++i) {
+      const double x = mesh.nodes(0, i), y = mesh.nodes(1, i), z = mesh.nodes(2, i) - h / 2;
+      given.col(i) << (e[0] + z * e[3]) * x + (e[2] + z * e[5]) * y / 2,
+          (e[1] + z * e[4]) * y + (e[2] + z * e[5]) * x / 2, -0.5 * (e[3] * x * x + e[4] * y * y + e[5] * x * y);
+      free(3 * i + 2, 0) = z, free(3 * i + 2, 1) = z * z;
+    }
+    const SparseMatrix k = assemble(mesh, stack(angles, h)).stiffness;
+    const Mat own = free.transpose() * (k * free);
+    const Vec pull = free.transpose() * (k * flat(given));
+    const double energy = flat(given).dot(k * flat(given)) - pull.dot(own.ldlt().solve(pull));
+    EXPECT_NEAR(energy, e.dot(plate(angles, h) * e) * l * w, 1e-9 * energy) << cell_shape(type).name;
+  }
 }
 
 // A cell bent about y: the worst of all plies is where its stress is by theory, and each ply alone has its own.
