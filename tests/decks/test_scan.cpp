@@ -1,0 +1,57 @@
+// Measured faces through decks.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "decks/engine.hpp"
+
+namespace dygita::test::scan_tests {
+namespace {
+
+// Two blocks, pressed together over a gap that a file or a function says; the scan lies in a plane turned by 90
+// degrees.
+std::string blocks(const std::string& gap) {
+  return R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local lower = substructure{ name = "lower", material = steel, mesh = mesh.box{ size = { 10*mm, 8*mm, 5*mm }, cells = { 5, 4, 2 } } }
+local upper = substructure{ name = "upper", material = steel, mesh = mesh.box{ size = { 10*mm, 8*mm, 5*mm }, cells = { 5, 4, 2 }, origin = { 0, 0, 5*mm } } }
+)" + gap +
+         R"(
+local joint = interface.contact{ name = "joint", between = { lower:face "zmax", upper:face "zmin" }, gap = gap }
+local base = support.fixed{ name = "base", on = lower:face "zmin" }
+local press = step.static{ name = "press", increments = 3, loads = { load.displacement{ on = upper:face "zmax", x = 0, y = 0, z = -4*um } } }
+problem{ name = "p", substructures = { lower, upper }, interfaces = { joint }, supports = { base }, steps = { press },
+  outputs = { output.resultant{ name = "force", on = joint }, output.history{ name = "side", on = upper:face "xmax", quantity = "displacement" } } }:run{}
+)";
+}
+
+TEST(Scan, is_the_function_that_it_was_taken_from) {
+  const auto path = std::filesystem::temp_directory_path() / ("dygita_lap_" + std::to_string(getpid()) + ".csv");
+  {
+    std::ofstream file(path);
+    file << "y [mm], minus x [mm], height [um]\n";
+    for (double x = 0; x <= 10; x += 0.5)
+      for (double y = 0; y <= 8; y += 0.5) file << y << ", " << -x << ", " << -(0.3 * x + 0.1 * y) << "\n";
+  }
+  // A plane, which smoothing leaves as it is.
+  const DeckRun measured =
+                    run_text(
+                        blocks("local turned = frame{ origin = { 0, 0, 0 }, axis = { 0, 0, 1 }, x = { 0, 1, 0 } }\n"
+                               "local scan = field.file{ file = \"" +
+                               path.string() +
+                               "\", frame = turned }\nlocal gap = function(x, y, z) return -scan(x, y, z) end"),
+                        {}, 1)
+                        .at(0),
+                known =
+                    run_text(blocks("local gap = function(x, y, z) return 0.3e-3 * x + 0.1e-3 * y end"), {}, 1).at(0);
+  std::filesystem::remove(path);
+  ASSERT_LT(known.column("force", "normal").back(), -100.0);
+  EXPECT_NEAR(measured.column("force", "normal").back(), known.column("force", "normal").back(),
+              1e-6 * std::abs(known.column("force", "normal").back()));
+  EXPECT_NEAR(measured.column("side", "x").back(), known.column("side", "x").back(), 1e-13);
+}
+
+}  // namespace
+}  // namespace dygita::test::scan_tests

@@ -1,0 +1,6 @@
+local ply = material.orthotropic{ name = "ply", e1 = 140*GPa, e2 = 10*GPa, e3 = 10*GPa, nu12 = 0.3, nu13 = 0.3, nu23 = 0.45, g12 = 5*GPa, g13 = 5*GPa, g23 = 3.4*GPa, density = 1600 }
+local skin = material.laminate{ name = "skin", plies = { { material = ply, thickness = 1*mm }, { material = ply, thickness = 1*mm, angle = 90*deg } } }
+local plate = substructure{ name = "plate", material = skin, mesh = mesh.box{ size = { 20*mm, 10*mm, 2*mm }, cells = { 4, 2, 1 } } }
+local base = support.fixed{ name = "base", on = plate:face "xmin" }
+local pull = step.static{ name = "pull", loads = { load.traction{ on = plate:face "xmax", x = 1*MPa } } }
+problem{ name = "p", substructures = { plate }, supports = { base }, steps = { pull }, outputs = { output.history{ name = "h", on = plate:face "xmax", quantity = "material_stress" } } }:run{}

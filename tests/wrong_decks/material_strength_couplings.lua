@@ -1,0 +1,1 @@
+local ply = material.orthotropic{ name = "ply", e1 = 140*GPa, e2 = 10*GPa, e3 = 10*GPa, nu12 = 0.3, nu13 = 0.3, nu23 = 0.45, g12 = 5*GPa, g13 = 5*GPa, g23 = 3.4*GPa, density = 1600, strength = { xt = 1500*MPa, xc = 1200*MPa, yt = 50*MPa, yc = 200*MPa, zt = 50*MPa, zc = 200*MPa, s12 = 70*MPa, s13 = 70*MPa, s23 = 60*MPa, f12 = 0.9, f13 = 0.9 } }
