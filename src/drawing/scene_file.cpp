@@ -159,8 +159,8 @@ Json shapes(const Problem& problem, const RunResult& result) {
 
 // A place where the run came nearest to a limit.
 struct Limit {
-  std::string kind, name;  // "stress" of a part; "slip", "opening" of a contact
-  double value = 0.0;      // Pa, m
+  std::string kind, name;  // "stress", "failure_index" of a part; "slip", "opening" of a contact
+  double value = 0.0;      // Pa, 1, m
   Vec3 place = Vec3::Zero();
   int part = -1;  // drawn
 };
@@ -206,13 +206,14 @@ Json limits(const Problem& problem, const RunResult& result) {
   std::vector<Limit> wanted = limits_of_contacts(problem, result);
   for (const PartStress& peak : result.stresses)
     if (peak.part == stressed.part)
-      wanted.insert(wanted.begin(), {"stress", problem.substructures[static_cast<size_t>(peak.part)]->name,
-                                     peak.von_mises, peak.place, peak.part});
+      wanted.insert(wanted.begin(),
+                    {stressed.is_index ? "failure_index" : "stress",
+                     problem.substructures[static_cast<size_t>(peak.part)]->name, peak.largest, peak.place, peak.part});
   Json list = Json::array();
   for (const Limit& limit : wanted) {
-    const bool is_stress = limit.kind == "stress";
+    const bool is_stress = limit.kind == "stress" || limit.kind == "failure_index";
     const CloseUp close_up =
-        make_close_up(problem.substructures, limit.part, limit.place, is_stress ? stressed.von_mises : Vec());
+        make_close_up(problem.substructures, limit.part, limit.place, is_stress ? stressed.value : Vec());
     Json json = json_of(close_up.picture);
     json["around"] = close_up.around;
     json["mark"] = close_up.mark;

@@ -333,6 +333,11 @@ std::string caption_of_limit(const Json& limit, const Json& parts) {
   for (const Json& x : place)
     at += (at.empty() ? "" : ", ") + plain_number(1e3 * without_round_off(x.get<double>()), 4);
   const auto part = static_cast<size_t>(number(limit, "part"));
+  const std::string instant =
+      fmt::format("in step '{}', {}", text(limit, "step"), with_unit(number(limit, "time"), "s"));
+  if (kind == "failure_index")
+    return fmt::format("Highest failure index, {:.3g}: '{}', at ({}) mm. Colours: index {}.", number(limit, "value"),
+                       name, at, instant);
   if (kind == "stress") {
     const double yield = part < parts.size() ? number(parts[part], "yield") : 0.0, peak = number(limit, "value");
     return fmt::format(

@@ -19,12 +19,13 @@ struct AssemblyScene {
   int missed = 0;                    // increments up to here, of all steps, that have not converged
 };
 
-// The part with the smallest margin against yield at the sampled instant of the smallest.
+// The part with the smallest margin against yield or failure, at the sampled instant of the smallest.
 struct StressedPart {
-  int part = -1;  // index in problem.substructures; -1: none has a yield
+  int part = -1;  // index in problem.substructures; -1: none is watched
+  bool is_index = false;
   std::string step;
   double time = 0.0;  // s, of the run
-  Vec von_mises;      // Pa, at its nodes
+  Vec value;          // at its nodes: von Mises stress, Pa, or failure index
 };
 
 struct JointScene {

@@ -18,7 +18,7 @@ constexpr int samples_of_assembly = 40;  // a step
 void SceneRecorder::accept(const Instant& instant) {
   missed_ += !instant.converged;
   motion_.accept(instant);
-  if (stresses_.is_nearest_to_yield()) keep_assembly(instant, stressed_);
+  if (stresses_.is_nearest_to_limit()) keep_assembly(instant, stressed_);
   const bool is_last = instant.increment + 1 == instant.model.step->n_increments();
   if (instant.is_static()) {
     if (is_last && shocked_.displacement.empty()) keep_assembly(instant, tightened_);
@@ -44,20 +44,33 @@ void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) 
 }
 
 // Of what this rank has of a part; empty where it has nothing.
-Vec SceneRecorder::stress_of(int part, const AssemblyScene& scene) const {
-  const PartView& view = views_.of(part);
-  if (view.is_empty()) return {};
+Points SceneRecorder::strained(int part, const AssemblyScene& scene) const {
   const auto i = static_cast<size_t>(part);
-  return von_mises(nodal_stress(view.mesh(), problem_.substructures[i]->material,
-                                without_growth(scene.displacement[i], growth_.at(&scene)[i], view.mesh().nodes)));
+  return without_growth(scene.displacement[i], growth_.at(&scene)[i], views_.of(part).mesh().nodes);
+}
+
+Vec SceneRecorder::stress_of(int part, const AssemblyScene& scene) const {
+  if (views_.of(part).is_empty()) return {};
+  return von_mises(nodal_stress(views_.of(part).mesh(), problem_.substructures[static_cast<size_t>(part)]->material,
+                                strained(part, scene)));
+}
+
+Vec SceneRecorder::failure_of(int part, const AssemblyScene& scene) const {
+  if (views_.of(part).is_empty()) return {};
+  return nodal_failure(views_.of(part).mesh(), problem_.substructures[static_cast<size_t>(part)]->material,
+                       strained(part, scene))
+      .index;
 }
 
 StressedPart SceneRecorder::gather_stressed() {
   StressedPart stressed;
-  const int part = stresses_.nearest_to_yield();
+  const int part = stresses_.nearest_to_limit();
   if (part < 0 || stressed_.displacement.empty()) return stressed;
-  stressed = {part, stressed_.step, stressed_.time, stress_of(part, stressed_)};
-  gather_part(part, stressed_.displacement[static_cast<size_t>(part)], stressed.von_mises);
+  const auto i = static_cast<size_t>(part);
+  const bool is_index = !problem_.substructures[i]->yield;
+  stressed = {part, is_index, stressed_.step, stressed_.time,
+              is_index ? failure_of(part, stressed_) : stress_of(part, stressed_)};
+  gather_part(part, stressed_.displacement[i], stressed.value);
   return stressed;
 }
 

@@ -30,7 +30,9 @@ class SceneRecorder : public Observer {
   void keep_assembly(const Instant& instant, AssemblyScene& scene);
   void gather(AssemblyScene& scene) const;
   StressedPart gather_stressed();
+  Points strained(int part, const AssemblyScene& scene) const;  // where there is something of the part
   Vec stress_of(int part, const AssemblyScene& scene) const;
+  Vec failure_of(int part, const AssemblyScene& scene) const;
   void gather_part(int part, Points& displacement, Vec& stress) const;
 
   const Problem& problem_;

@@ -143,12 +143,12 @@ void StressRecorder::settle_above(Watched& watched) const {
   for (int look = 1; look < n; ++look) watched.peak.above = std::max(watched.peak.above, sums[look] / sums[0]);
 }
 
-int StressRecorder::nearest_to_yield() const {
+int StressRecorder::nearest_to_limit() const {
   int part = -1;
   double used = 0.0;
   for (const Watched& watched : watched_) {
-    if (!(watched.peak.von_mises / watched.peak.yield > used)) continue;
-    used = watched.peak.von_mises / watched.peak.yield;
+    if (!(watched.peak.largest / watched.peak.allowed > used)) continue;
+    used = watched.peak.largest / watched.peak.allowed;
     part = watched.peak.part;
   }
   return part;
@@ -193,7 +193,7 @@ double StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
     if (stress[i] > watched.peak.allowed) watched.above[static_cast<size_t>(owner)].back() += watched.volumes[i];
   }
   watched.largest = watched.largest.cwiseMax(stress);
-  return stress.size() > 0 ? stress.maxCoeff() / watched.peak.yield : 0.0;
+  return stress.size() > 0 ? stress.maxCoeff() / watched.peak.allowed : 0.0;
 }
 
 void StressRecorder::look_at_hot(const Instant& instant, Watched& watched) {

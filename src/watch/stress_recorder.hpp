@@ -24,9 +24,9 @@ class StressRecorder {
   void accept(const Instant& instant);
   void settle();
   // Has this instant's look at all nodes met a smaller margin than every one before? The same on all ranks.
-  bool is_nearest_to_yield() const { return is_nearest_; }
+  bool is_nearest_to_limit() const { return is_nearest_; }
   // The substructure with the smallest margin, once it has settled; -1: none has been looked at.
-  int nearest_to_yield() const;
+  int nearest_to_limit() const;
   // In the order of the substructures; of all once it has settled.
   std::vector<PartStress> take();
 
@@ -50,7 +50,7 @@ class StressRecorder {
   };
 
   void prepare(const Instant& instant);
-  // Returns the largest stress over yield.
+  // Returns the largest stress over yield, or index.
   double look_at_all(const Instant& instant, Watched& watched);
   void look_at_hot(const Instant& instant, Watched& watched);
   void follow();
