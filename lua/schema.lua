@@ -867,7 +867,8 @@ words[8] = {
     arguments = {
       name_of "step", after,
       { "duration", type = "number", unit = "s", range = duration, required = true, doc = "how long" },
-      { "dt", type = "number", unit = "s", range = { 1e-12, 0.1 }, required = true, doc = "time step" },
+      { "dt", type = "number", unit = "s", range = { 1e-12, 0.1 }, default_doc = "20 time steps, 40 with friction, a period of the highest frequency that loads bring or outputs ask for, else of what the mesh carries",
+        doc = "time step" },
       loads, step_supports,
     },
   },
@@ -1037,14 +1038,14 @@ words[10] = {
   {
     "attenuation", makes = "output", of_motion = true,
     doc = "Shock attenuation across a joint: maximax spectra of the histories before and after it and their ratio by band. Columns: "
-      .. "frequency, entering, leaving, ratio (dB); with _x, _y, _z for histories without a direction.",
+      .. "frequency, entering, leaving, ratio (dB); with _x, _y, _z for histories without a direction. `rule` is the handbooks' rule of thumb (dB): -13 per metre of `distance`, -3 per bolted joint (`joints`), -2 per bond (`bonds`), -20 per isolator (`isolators`).",
     arguments = spectrum({
       name_of "output",
       { "entering", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration before the joint" },
       { "leaving", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration after the joint" },
       { "bands", type = "integer", range = { 1, 24 }, default = 1, doc = "bands per octave: 1, or 3 for thirds" },
-      { "joints", type = "integer", range = { 1, 100 }, default = 1,
-        doc = "bolted joints on the path, for comparison with the rule of thumb of -3 dB each" },
+      { "joints", type = "integer", range = { 1, 100 }, default_doc = "those of the model",
+        doc = "bolted joints on the path, for the rule of thumb of -3 dB each, in place of what the model has on its way" },
     }, 12),
   },
   {
@@ -1120,7 +1121,7 @@ words[10] = {
   {
     "backbone", makes = "output",
     doc = "Frequency and damping of a mode against its amplitude, by quasi-static modal analysis: of static steps in which `load.mode` pushes the assembly, a row an increment of the first loading, friction and contact as they are. "
-      .. "Damping is that of friction by Masing's rule; `cycle_damping` that of a whole cycle, where the steps go on to the opposite load and back. Columns: acceleration, displacement (m/s^2, m, where the shape is largest), frequency (Hz), damping (ratio).",
+      .. "Damping is that of friction by Masing's rule and of the materials; `cycle_frequency` and `cycle_damping` those of a whole cycle, where the steps go on to the opposite load and back. Columns: acceleration, displacement (m/s^2, m, where the shape is largest), frequency (Hz), damping (ratio), material_damping (the materials' part of it).",
     arguments = {
       name_of "output",
       { "mode", type = "object", kinds = { "output.modes" }, required = true, doc = "the modes" },

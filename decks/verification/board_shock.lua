@@ -1,4 +1,4 @@
--- board_shock.lua -- a record on the floor of a unit, and what its board makes of it: against a beam in closed form.
+-- board_shock.lua -- a record on the floor of a unit, and what its board makes of it: against a beam in closed form and a rule of thumb.
 --
 --        clamp ____                    ____ clamp                board 140 x 20 x 3 mm, 100 mm of it free; clamped by
 --        board |__|____________________|__|                      pressure between standoffs and clamps, which friction holds
@@ -6,7 +6,7 @@
 --        =========================================  floor
 --
 -- Run        dygita run decks/verification/board_shock.lua         --set along=32 --set through=4
--- See        out/board_shock/base/report.html: spectra and the attenuation
+-- See        out/board_shock/base/report.html: spectra, and the attenuation with the handbooks' rule as a line
 -- Expect     the table of manual/measured-joints.md
 -- Read next  a unit with boards: decks/electronics_box.lua
 -- Record     decks/records/synthetic_shock.csv, made by make_synthetic_shock.py beside it; `dygita srs` prints its spectrum
@@ -101,4 +101,5 @@ print(("spectrum of the middle beside the beam's (dB): %.2f on average, at most 
 local ratio = result[across].ratio
 local taken = 0
 for i = 1, #ratio do taken = taken + ratio[i] / #ratio end
-print(("attenuation (dB): %.1f on average"):format(taken))
+print(("attenuation (dB): %.1f on average, rule of thumb %.2f (%d bolted joints, %d bonds, %.3f m)"):format(taken, result[across].rule,
+  result[across].joints, result[across].bonds, result[across].distance))

@@ -10,4 +10,16 @@ namespace dygita {
 // loads interface 'shank', which is not in 'interfaces'".
 void check_problem(const Problem& problem);
 
+namespace check {
+
+// For a dynamic step that has none: one that carries what its loads bring and the outputs ask for (s), and a line that
+// says so. Throws where nothing tells.
+struct ChosenDt {
+  double dt;
+  std::string why;
+};
+ChosenDt choose_dt(const Problem& problem, size_t i_step);
+
+}  // namespace check
+
 }  // namespace dygita

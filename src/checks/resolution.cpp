@@ -7,9 +7,12 @@
 #include <set>
 
 #include "base/warnings.hpp"
+#include "checks/check_problem.hpp"
 #include "checks/parts.hpp"
+#include "law/law.hpp"
 #include "model/load_content.hpp"
 #include "model/output.hpp"
+#include "model/support.hpp"
 
 namespace dygita::check {
 
@@ -108,7 +111,64 @@ void doubt_superelements(const Problem& problem, const Content& content) {
   }
 }
 
+// Hz, the highest of shear waves that the coarsest part's cells carry; infinity: none has cells.
+double carried_by_mesh(const Problem& problem) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const SubstructurePtr& part : problem.substructures)
+    if (part->mesh->has_cells())
+      lowest = std::min(lowest, part->material.s_wave_speed() / (cells_a_wavelength * cell_size(*part)));
+  return lowest;
+}
+
+bool rubs(const Problem& problem, const Step& step) {
+  const std::vector<SupportPtr> supports = supports_of(problem, step);
+  return std::any_of(problem.interfaces.begin(), problem.interfaces.end(),
+                     [](const InterfacePtr& interface) { return interface->law->shown().slip; }) ||
+         std::any_of(supports.begin(), supports.end(), [](const SupportPtr& support) {
+           const LawPtr law = support->kind->law();
+           return law && law->shown().slip;
+         });
+}
+
+// What dt of a step is chosen for.
+struct Choice {
+  bool slides = false;
+  double steps = 0.0, frequency = 0.0;  // a period; Hz
+  std::string of;
+};
+
+Choice choice_of(const Problem& problem, size_t i_step) {
+  // The scheme's phase lag is then 0.8 %; friction turns round in between, and its loop is as wide as it is late.
+  constexpr double usual = 20.0, of_friction = 40.0;
+  Choice choice;
+  choice.slides = rubs(problem, *problem.steps[i_step]);
+  choice.steps = choice.slides ? of_friction : usual;
+  for (const Content& content : contents(problem, i_step))
+    if (content.frequency > choice.frequency) choice.frequency = content.frequency, choice.of = content.of;
+  if (choice.frequency == 0.0 || !std::isfinite(choice.frequency))
+    choice.frequency = carried_by_mesh(problem), choice.of = "the mesh carries";
+  return choice;
+}
+
 }  // namespace
+
+ChosenDt choose_dt(const Problem& problem, size_t i_step) {
+  constexpr double most = 1e7;
+  const Step& step = *problem.steps[i_step];
+  const Choice choice = choice_of(problem, i_step);
+  const double n = std::max(1.0, std::ceil(step.duration * choice.frequency * choice.steps * (1.0 - 1e-9)));
+  if (!(n <= most))
+    fail(problem, step.origin,
+         fmt::format("step '{}' has no 'dt', and {}", step.name,
+                     std::isfinite(n) ? fmt::format("{} {}: {:.3g} time steps exceed the limit of {:g}", choice.of,
+                                                    in_unit(choice.frequency), n, most)
+                                      : std::string("no load, output or mesh tells which frequencies matter")),
+         "give 'dt'");
+  return {
+      step.duration / n,
+      fmt::format("step '{}': dt = {:.4g} us, {:.0f} time steps a period{}; {} {}", step.name, 1e6 * step.duration / n,
+                  choice.steps, choice.slides ? ", since friction slides" : "", choice.of, in_unit(choice.frequency))};
+}
 
 void resolution(const Problem& problem) {
   std::vector<double> size;

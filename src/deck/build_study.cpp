@@ -1,7 +1,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/log.hpp"
 #include "checks/check_problem.hpp"
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
@@ -36,6 +38,10 @@ Content build_static(const Declaration& d) {
 Content build_dynamic(const Declaration& d) {
   auto step = new_step(d);
   step->duration = d.arguments.number("duration");
+  if (!d.arguments.has("dt")) {
+    DeckState::of(d.lua).without_dt.emplace_back(step);
+    return StepPtr(step);
+  }
   step->dt = d.arguments.number("dt");
   const double n = step->duration / step->dt;
   if (n < 1.0 - 1e-6) {
@@ -129,6 +135,24 @@ void doubt_friction(const Problem& problem, const DeckState& state) {
   }
 }
 
+// A step of two problems can have one dt.
+void choose_time_steps(const Problem& problem, DeckState& state) {
+  for (const std::weak_ptr<Step>& left_out : state.without_dt) {
+    const std::shared_ptr<Step> step = left_out.lock();
+    const int i = step ? index_of(problem.steps, step.get()) : -1;
+    if (i < 0) continue;
+    const check::ChosenDt chosen = check::choose_dt(problem, static_cast<size_t>(i));
+    if (step->dt > 0.0 && std::abs(step->dt - chosen.dt) > 1e-9 * chosen.dt)
+      check::fail(problem, step->origin,
+                  fmt::format("step '{}' has no 'dt' and is in two problems, of which one asks for {:.4g} us and this "
+                              "one for {:.4g} us",
+                              step->name, 1e6 * step->dt, 1e6 * chosen.dt),
+                  "give 'dt', or each problem a step of its own");
+    step->dt = chosen.dt;
+    if (state.steps_told.insert(chosen.why).second) say(chosen.why);
+  }
+}
+
 Content build_problem(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto problem = new_named<Problem>(d);
@@ -146,6 +170,7 @@ Content build_problem(const Declaration& d) {
     else
       problem->solver = *solver.as<std::shared_ptr<const LatinSettings>>();
   }
+  choose_time_steps(*problem, DeckState::of(d.lua));
   check_problem(*problem);
   doubt_friction(*problem, DeckState::of(d.lua));
   return std::shared_ptr<const Problem>(problem);

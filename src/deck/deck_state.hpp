@@ -34,6 +34,8 @@ struct DeckState : LuaState {
   std::map<std::shared_ptr<const NamedParts>, std::set<std::string>> parts_taken;  // by the deck, names
   std::vector<std::shared_ptr<const ForeignMeshes>> model_files;
   std::vector<std::weak_ptr<const Interface>> without_friction;  // contacts for which the deck gives none
+  std::vector<std::weak_ptr<Step>> without_dt;                   // dynamic: they get that of their problem
+  std::set<std::string> steps_told;
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called
   bool has_read_hollow = false;  // the deck has read a value that was not computed

@@ -15,6 +15,7 @@ class ModeShapes {
   virtual Points mass_times_shape(const Substructure& part, int number) const = 0;
   virtual double generalised_mass(int number) const = 0;  // kg
   virtual double frequency(int number) const = 0;         // Hz
+  virtual double damping_ratio(int number) const = 0;     // of the materials and of laws that damp
 };
 
 }  // namespace dygita

@@ -185,6 +185,7 @@ void Collector::finish(RunResult& result) {
   parts_.motion().finish(result);
   parts_.turned().finish(problem_, result);
   parts_.gaps().finish(result);
+  parts_.contacts().tell(result);
   result.stresses = parts_.stresses().take();
   // What is not a number stays.
   for (const PartStress& stress : result.stresses) {

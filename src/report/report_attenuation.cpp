@@ -19,6 +19,20 @@ std::string ratio_text(double value) {
                               : "no input";
 }
 
+// What the handbooks of pyroshock expect of the way.
+std::string rule_text(const Json& output) {
+  const double rule = number(output, "rule");
+  if (!std::isfinite(rule)) return "; no interfaces lead from one to the other";
+  const auto of = [&](const char* key, const char* name) {
+    return fmt::format("{:.0f} {}{}", number(output, key), name, number(output, key) == 1.0 ? "" : "s");
+  };
+  return fmt::format(
+      "; the rule of thumb of pyroshock handbooks, −13 dB per metre, −3 per bolted or riveted joint, −2 per bond, "
+      "−20 per isolator, gives {} here ({}, {}, {}, {} between the two places)",
+      ratio_text(rule), of("joints", "joint"), of("bonds", "bond"), of("isolators", "isolator"),
+      with_unit(number(output, "distance"), "m"));
+}
+
 std::string attenuation_part(const RunFolder& run, const Json& output, const FrequencyRange& judged) {
   const Table table = run.table(text(output, "file"));
   if (table.n_rows() == 0 || table.columns.size() < 4) return "";
@@ -48,12 +62,11 @@ std::string attenuation_part(const RunFolder& run, const Json& output, const Fre
                                          with_unit(table.columns[i + 1][row], table.units[i]), ratio_text(ratio[row])});
   }
   if (plot.lines.empty()) return "";
-  const double rule = -3.0 * number(output, "joints");
-  plot.levels = {{rule, "rule of thumb"}, {0.0, ""}};
+  const double rule = number(output, "rule");
+  plot.levels = {{0.0, ""}};
+  if (std::isfinite(rule)) plot.levels.push_back({rule, "rule of thumb"});
   return html::heading(text(output, "name") + ": from " + text(output, "entering") + " to " + text(output, "leaving")) +
-         doubted_figure(run, svg(plot),
-                        "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB per bolted joint, gives " +
-                            ratio_text(rule) + " here" + silent) +
+         doubted_figure(run, svg(plot), "Ratio of the maximax spectra" + rule_text(output) + silent) +
          html::table(header, rows, true);
 }
 

@@ -1,9 +1,13 @@
 #include "watch/contact_recorder.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "law/law.hpp"
 #include "ranks/ranks.hpp"
+#include "result/result.hpp"
 
 namespace dygita {
 
@@ -48,12 +52,65 @@ void ContactRecorder::begin_step(const Instant& start) {
       const Surface& surface = (*start.model.surfaces)[static_cast<size_t>(s)];
       if (!takes_part(*start.model.problem, *start.model.step, surface)) continue;
       Watched watched{c, s, std::vector<Start>(static_cast<size_t>(surface.n_points()))};
+      watched.rubs = !start.is_static() && start.model.n_substeps() == 1 && !start.model.problem->explicit_dynamics &&
+                     surface.declared_law().shown().slip;
+      const std::vector<Work>& works = start.state.surfaces[static_cast<size_t>(s)].works;
       start.for_each_point_here(s, [&](int i, const LawState& point) {
-        watched.points[static_cast<size_t>(i)] = {point.slip, point.status != PointState::open};
+        watched.points[static_cast<size_t>(i)] = {point.slip, point.status != PointState::open,
+                                                  works[static_cast<size_t>(i)].friction};
       });
+      if (watched.rubs &&
+          (rubbing_.empty() || rubbing_.back().step != start.model.step || rubbing_.back().contact != c))
+        rubbing_.push_back({start.model.step, c});
       watched_.push_back(std::move(watched));
     }
   is_new_ = true;
+}
+
+// A slide ends where the point sticks or its friction turns round.
+void ContactRecorder::follow_slide(const LawState& now, const Vec3& force, double taken, Slide& slide, Rubbing& of) {
+  constexpr int brief = 2;
+  const bool slides = now.status == PointState::slip;
+  of.taken += taken;
+  if (!slides || slide.force.dot(force) < 0.0) {
+    if (slide.n <= brief) of.brief += slide.work;
+    slide = {};
+  }
+  if (!slides) {
+    of.brief += taken;
+    return;
+  }
+  slide = {slide.n + 1, slide.work + taken, force};
+}
+
+void ContactRecorder::follow_friction(const Instant& instant) {
+  for (Watched& watched : watched_) {
+    if (!watched.rubs) continue;
+    const auto of = std::find_if(rubbing_.rbegin(), rubbing_.rend(),
+                                 [&](const Rubbing& rubbing) { return rubbing.contact == watched.contact; });
+    const Surface& surface = (*instant.model.surfaces)[static_cast<size_t>(watched.surface)];
+    const std::vector<Work>& works = instant.state.surfaces[static_cast<size_t>(watched.surface)].works;
+    of->motion = std::max(of->motion, instant.state.energies.kinetic);
+    instant.for_each_point_here(watched.surface, [&](int i, const LawState& point) {
+      Start& past = watched.points[static_cast<size_t>(i)];
+      const double now = works[static_cast<size_t>(i)].friction;
+      const Vec3 n = surface.facing.normals.col(i);
+      follow_slide(point, point.force - point.force.dot(n) * n, now - std::exchange(past.work, now), past.slide, *of);
+    });
+  }
+}
+
+void ContactRecorder::tell(RunResult& result) const {
+  constexpr double most = 0.2;        // of what friction takes
+  constexpr double of_motion = 0.05;  // friction that takes less hardly damps it
+  for (const Rubbing& of : rubbing_)
+    if (of.brief > most * of.taken && of.taken > of_motion * of.motion)
+      result.warnings.push_back(fmt::format(
+          "step '{}': {:.0f} % of what friction takes at '{}' goes in slides of one or two time steps: dt = {:.3g} us "
+          "does not resolve it, and the damping is too large; halve dt until this is below {:.0f} %, or give the faces "
+          "'compliance', without which points stick and slide by turns",
+          of.step->name, 100.0 * of.brief / of.taken, result.contacts[of.contact].name, 1e6 * of.step->dt,
+          100.0 * most));
 }
 
 void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Sums& sums, ContactStep& step) const {
@@ -112,10 +169,15 @@ void ContactRecorder::accept(const Instant& instant) {
     if (is_watched[c]) add({n[0], {n[1], n[2], n[3]}, n[4], n[5]}, instant.is_static(), contacts_[c]);
   }
   is_new_ = false;
+  if (!instant.is_static()) follow_friction(instant);
 }
 
 void ContactRecorder::settle() {
   if (ranks::is_alone()) return;
+  std::vector<double> work;
+  for (const Rubbing& of : rubbing_) work.insert(work.end(), {of.taken, of.brief});
+  work = ranks::sums(work);
+  for (size_t i = 0; i < rubbing_.size(); ++i) rubbing_[i].taken = work[2 * i], rubbing_[i].brief = work[2 * i + 1];
   std::vector<double> own;
   for (const ContactSummary& contact : contacts_)
     for (const ContactStep& step : contact.steps) {

@@ -8,6 +8,8 @@
 
 namespace dygita {
 
+struct RunResult;
+
 // All of these are collective.
 class ContactRecorder {
  public:
@@ -15,20 +17,38 @@ class ContactRecorder {
   void accept(const Instant& instant);
   // Once, after the last step: rank 0 knows all.
   void settle();
+  // Warns of friction that dt does not resolve, in the contacts that it has given.
+  void tell(RunResult& result) const;
   // In the order of interfaces and walls.
   std::vector<ContactSummary> take() { return std::move(contacts_); }
 
  private:
-  // A point when the step began.
+  // Increments in which a point has slid on one way.
+  struct Slide {
+    int n = 0;
+    double work = 0.0;  // J
+    Vec3 force = Vec3::Zero();
+  };
+  // A point when the step began, and its friction since.
   struct Start {
     Vec3 slip = Vec3::Zero();
     bool is_closed = false;
+    double work = 0.0;  // J, that friction has taken up to the last increment
+    Slide slide = {};
+  };
+  // Of a dynamic step, J: what friction takes in a contact, how much of it in slides of one or two increments, whose
+  // ends dt decides, and the most that the assembly moves with.
+  struct Rubbing {
+    const Step* step;
+    size_t contact;
+    double taken = 0.0, brief = 0.0, motion = 0.0;
   };
   // Of the faces of a contact, those that have a part in the step.
   struct Watched {
     size_t contact;
     int surface;
     std::vector<Start> points;  // all of the surface; those that are kept elsewhere as they were made
+    bool rubs = false;          // in increments of the deck
   };
   // Sums over the points of a contact at an instant.
   struct Sums {
@@ -38,6 +58,8 @@ class ContactRecorder {
   };
 
   void find_contacts(const Instant& start);
+  void follow_friction(const Instant& instant);
+  static void follow_slide(const LawState& now, const Vec3& force, double taken, Slide& slide, Rubbing& of);
   void look_at(const Instant& instant, const Watched& watched, Sums& sums, ContactStep& step) const;
   void add(const Sums& sums, bool is_static, ContactSummary& contact) const;
 
@@ -45,6 +67,7 @@ class ContactRecorder {
   std::vector<std::vector<int>> surfaces_;  // of each contact
   std::vector<Watched> watched_;            // in this step
   bool is_new_ = false;                     // the step: no increment yet
+  std::vector<Rubbing> rubbing_;            // of each contact in this step, after those of the steps before
 };
 
 }  // namespace dygita

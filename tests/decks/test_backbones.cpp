@@ -1,9 +1,10 @@
 // Frequency and damping of a mode against its amplitude: a mass on Iwan's joints in closed form, by Masing's rule and
-// by a whole cycle; as it rings down; turned; what is refused.
+// by a whole cycle; as it rings down; turned; what is refused. Time steps that friction and motion ask for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/error.hpp"
 #include "decks/engine.hpp"
@@ -90,6 +91,8 @@ TEST(Backbone, of_a_whole_cycle_loses_what_Masing_has) {
   const double cycle = run.findings("backbone").values.at("cycle_damping");
   std::cout << "  " << cycle << " for " << damping(q) << "\n";
   EXPECT_NEAR(cycle, damping(q), 0.02 * damping(q));
+  const double frequency = std::sqrt(force(q) / (mass * q)) / (2 * M_PI);
+  EXPECT_NEAR(run.findings("backbone").values.at("cycle_frequency"), frequency, 1e-3 * frequency);
   EXPECT_EQ(run.column("backbone", "displacement").size(), 60u);
 }
 
@@ -129,9 +132,107 @@ TEST(Backbone, is_the_same_turned) {
   EXPECT_NEAR(other.column("backbone", "damping").back(), run.column("backbone", "damping").back(), 1e-6);
 }
 
+// A clamped bar along its axis: nothing rubs, and damping of the stiffness has beta w/2 at any amplitude.
+TEST(Backbone, has_the_damping_of_the_materials) {
+  const DeckRun run = run_text(R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 8000, damping = 2e-6 }
+local bar = substructure{ name = "bar", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 400*mm }, cells = { 1, 1, 40 } } }
+local rest = step.static{ name = "rest" }
+local modes = output.modes{ name = "modes", n = 1, after = rest }
+local push = step.static{ name = "push", after = rest, increments = 3, loads = { load.mode{ mode = modes, number = 1, parts = { bar }, value = 10 } } }
+local pull = step.static{ name = "pull", after = push, increments = 3, loads = { load.mode{ mode = modes, number = 1, parts = { bar }, value = -10 } } }
+local back = step.static{ name = "back", after = pull, increments = 3, loads = { load.mode{ mode = modes, number = 1, parts = { bar }, value = 10 } } }
+problem{ name = "bar", substructures = { bar }, supports = { support.fixed{ name = "base", on = bar:face "zmin" },
+    support.symmetry{ name = "x", on = { bar:face "xmin", bar:face "xmax" } }, support.symmetry{ name = "y", on = { bar:face "ymin", bar:face "ymax" } } },
+  steps = { rest, push, pull, back }, outputs = { modes, output.backbone{ name = "backbone", mode = modes, number = 1, steps = { push, pull, back } } } }:run{}
+)",
+                               {}, 1)
+                          .at(0);
+  const double frequency = 5000.0 / (4 * 0.4);  // quarter of a wave
+  EXPECT_NEAR(run.column("backbone", "frequency").back(), frequency, 2e-4 * frequency);
+  for (const char* column : {"damping", "material_damping"})
+    for (const double zeta : run.column("backbone", column)) EXPECT_NEAR(zeta, 2e-6 * M_PI * frequency, 1e-5) << column;
+  const std::map<std::string, double>& values = run.findings("backbone").values;
+  EXPECT_NEAR(values.at("cycle_damping"), 2e-6 * M_PI * frequency, 1e-5);
+  EXPECT_NEAR(values.at("cycle_frequency"), frequency, 2e-4 * frequency);
+}
+
 TEST(Backbone, needs_modes_that_are_there) {
   EXPECT_THROW(run_text(sandwich, {{"early", "1"}}, 1), NumericalError);
   EXPECT_THROW(run_text(sandwich, {{"number", "9"}}, 1), NumericalError);
+}
+
+// Two blocks; 5 mm is the shortest edge of a cell.
+const std::string blocks = R"(
+local p = param{ mu = 0, up_to = 0, duration = 2*ms, twice = 0 }
+local metal = material.elastic{ name = "metal", young = 200*GPa, poisson = 0.25, density = 8000 }
+local function block(name, z) return substructure{ name = name, material = metal,
+  mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 2, 2, 4 }, origin = { 0, 0, z } } } end
+local a, b = block("a", 0), block("b", 20*mm)
+local joint = interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = p.mu }
+local shock = step.dynamic{ name = "shock", duration = p.duration, loads = { load.pressure{ on = b:face "zmax", history = 1*MPa } } }
+local top  = output.history{ name = "top", on = b:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
+local function run(up_to)
+  local outputs = { top }
+  if up_to > 0 then outputs[2] = output.srs{ name = "of top", of = top, from = 0.5*up_to, to = up_to } end
+  return problem{ name = "blocks", substructures = { a, b }, interfaces = { joint }, supports = { support.fixed{ name = "base", on = a:face "zmin" } },
+    steps = { shock }, outputs = outputs }
+end
+local first = run(p.up_to)
+if p.twice == 1 then run(2*p.up_to):run{ case = "twice" } end
+first:run{}
+)";
+
+int n_steps(const DeckRun& run) { return static_cast<int>(run.column("top", "time").size()); }
+
+TEST(TimeStep, left_out_is_of_the_highest_frequency_that_an_output_asks_for) {
+  EXPECT_EQ(n_steps(run_text(blocks, {{"up_to", "5000"}}, 1).at(0)), 200);
+  EXPECT_EQ(n_steps(run_text(blocks, {{"up_to", "5000"}, {"mu", "0.2"}}, 1).at(0)), 400);
+}
+
+TEST(TimeStep, left_out_is_of_what_the_mesh_carries_where_nothing_else_tells) {
+  const double shear = std::sqrt(80e9 / 8000), carried = shear / (5 * 5e-3);
+  EXPECT_EQ(n_steps(run_text(blocks, {{"duration", "0.1e-3"}}, 1).at(0)),
+            static_cast<int>(std::ceil(0.1e-3 * carried * 20)));
+}
+
+TEST(TimeStep, left_out_is_one_for_all_problems_of_a_step) {
+  EXPECT_THROW(run_text(blocks, {{"up_to", "5000"}, {"twice", "1"}}, 1), InputError);
+}
+
+// Two bars clamped at one end and pressed together, the upper one let go: they slide on each other as they swing.
+const std::string bars = R"(
+local p = param{ dt = 20*us, rough = 0 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 7800 }
+local function bar(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ origin = { 0, 0, z }, size = { 200*mm, 10*mm, 5*mm }, cells = { 16, 1, 2 } } } end
+local low, high = bar("low", 0), bar("high", 5*mm)
+local seam = interface.contact{ name = "seam", between = { low:face "zmax", high:face "zmin" }, friction = 0.2,
+  compliance = p.rough == 1 and { normal = 1e13, tangential = 1e13 } or nil }
+local base = support.fixed{ name = "base", on = { low:face "xmin", high:face "xmin" } }
+local press = { load.pressure{ on = low:face "zmin", history = 2*MPa }, load.pressure{ on = high:face "zmax", history = 2*MPa } }
+local clamp = step.static{ name = "clamp", loads = press }
+local pull = step.static{ name = "pull", after = clamp, increments = 4, loads = { press[1], press[2], load.force{ on = high:face "xmax", z = 30 } } }
+local ring = step.dynamic{ name = "ring", after = pull, duration = 10*ms, dt = p.dt, loads = press }
+problem{ name = "bars", substructures = { low, high }, interfaces = { seam }, supports = { base }, steps = { clamp, pull, ring }, outputs = { output.energy{} } }:run{}
+)";
+
+// What the run says of its friction; empty: nothing.
+std::string said_of_friction(const Settings& settings) {
+  const DeckRun run = run_text(bars, settings, 1).at(0);
+  for (const std::string& warning : run.result->warnings)
+    if (warning.find("of what friction takes at 'seam' goes in slides of one or two time steps") != std::string::npos)
+      return warning;
+  return "";
+}
+
+TEST(TimeStep, that_is_too_long_for_friction_is_said) {
+  const std::string said = said_of_friction({{"dt", "100e-6"}});
+  std::cout << "  " << said << "\n";
+  EXPECT_EQ(said.rfind("step 'ring': ", 0), 0u);
+  EXPECT_GT(std::atof(said.c_str() + std::string("step 'ring': ").size()), 30.0);
+  EXPECT_EQ(said_of_friction({{"rough", "1"}}), "");
+  EXPECT_EQ(said_of_friction({{"dt", "5e-6"}}), "");
 }
 
 }  // namespace

@@ -108,6 +108,52 @@ TEST(Attenuation, says_nothing_of_an_axis_along_which_nothing_enters) {
   }
 }
 
+// From a to d: through an isolator, or around by a bolted joint and a bond; e hangs on nothing.
+TEST(Attenuation, is_compared_with_the_rule_of_thumb_of_its_way) {
+  const auto rule_of = [](const Settings& settings) {
+    return run_text(R"(
+local p = param{ around = 1, joints = 0, apart = 0 }
+local metal = material.elastic{ name = "metal", young = 210*GPa, poisson = 0, density = 7800 }
+local function block(name, x, z) return substructure{ name = name, material = metal,
+  mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 1, 1, 1 }, origin = { x, 0, z } } } end
+local a, b, c, d, e = block("a", 0, 0), block("b", 20*mm, 0), block("c", 20*mm, 20*mm), block("d", 0, 20*mm), block("e", 90*mm, 0)
+local soft = interface.bushing{ name = "soft", between = { a:face "zmax", d:face "zmin" }, normal = 1e10, tangential = 1e10 }
+local lap = interface.contact{ name = "lap", between = { a:face "xmax", b:face "xmin" }, friction = 0.2 }
+local glue = interface.bonded{ name = "glue", between = { b:face "zmax", c:face "zmin" } }
+local bolt = interface.bonded{ name = "bolt", between = { c:face "xmin", d:face "xmax" } }
+local tighten = step.static{ name = "tighten", loads = { load.preload{ on = bolt, force = 10 } } }
+local shock = step.dynamic{ name = "shock", after = tighten, duration = 200*us, dt = 1*us,
+  loads = { load.pressure{ on = b:face "xmax", history = history.half_sine{ peak = 1*MPa, duration = 20*us } } } }
+local function on(name, part) return output.history{ name = name, on = part:face "ymax", quantity = "acceleration" } end
+local first, last = on("first", a), on("last", p.apart == 1 and e or d)
+local made = output.attenuation{ name = "made", entering = first, leaving = last, from = 10*kHz, to = 80*kHz, joints = p.joints > 0 and math.tointeger(p.joints) or nil }
+local interfaces = { soft }
+if p.around == 1 then interfaces = { soft, lap, glue, bolt } end
+problem{ name = "blocks", substructures = { a, b, c, d, e }, interfaces = interfaces, supports = { support.fixed{ name = "base", on = { a:face "zmin", b:face "zmin" } } },
+  steps = p.around == 1 and { tighten, shock } or { shock }, outputs = { first, last, made } }:run{}
+)",
+                    settings, 1)
+        .at(0)
+        .findings("made")
+        .values;
+  };
+  const std::map<std::string, double> around = rule_of({});
+  EXPECT_EQ(around.at("joints"), 2.0);
+  EXPECT_EQ(around.at("bonds"), 1.0);
+  EXPECT_EQ(around.at("isolators"), 0.0);
+  EXPECT_NEAR(around.at("distance"), 0.02, 1e-12);
+  EXPECT_NEAR(around.at("rule"), -(13 * 0.02 + 2 * 3 + 2), 1e-12);
+  EXPECT_NEAR(rule_of({{"joints", "3"}}).at("rule"), -(13 * 0.02 + 3 * 3), 1e-12);
+  EXPECT_TRUE(std::isnan(rule_of({{"apart", "1"}}).at("rule")));
+}
+
+TEST(BoardShock, is_what_a_clamped_beam_makes_of_the_record) {
+  const PrintedRun run = run_printing("verification/board_shock.lua");
+  EXPECT_NEAR(run.number("first mode (Hz)"), 1570.2, 0.02 * 1570.2);
+  EXPECT_NEAR(run.number("largest acceleration of the middle (g)"), 2618.0, 0.1 * 2618.0);
+  EXPECT_LT(run.number("spectrum of the middle beside the beam's (dB)"), 0.5);
+}
+
 TEST(SpectrumThroughJoint, passes_what_presses_the_joint_and_takes_from_what_shears_it) {
   const PrintedRun closed = run_printing("spectrum_through_joint.lua");
   const double x = closed.number("mean x"), z = closed.number("mean z");

@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "model/joint_path.hpp"
 #include "model/refusal.hpp"
 #include "recording/output_table.hpp"
+#include "recording/placed.hpp"
 #include "recording/recorder.hpp"
 #include "recording/spectra.hpp"
 
@@ -56,8 +58,8 @@ class AttenuationOutput final : public Output {
         entering_(a.output("entering")),
         leaving_(a.output("leaving")),
         srs_(srs_settings(a)),
-        bands_(a.integer("bands")),
-        n_joints_(a.integer("joints")) {
+        bands_(a.integer("bands")) {
+    if (a.has("joints")) n_joints_ = a.integer("joints");
     srs_.watches_end = true;
   }
 
@@ -92,8 +94,19 @@ class AttenuationOutput final : public Output {
     return columns;
   }
 
-  Notes record(const Table&, const Findings&) const override {
-    return {{"entering", entering_->name}, {"leaving", leaving_->name}, {"joints", n_joints_}};
+  Notes record(const Table&, const Findings& findings) const override {
+    Notes notes = {{"entering", entering_->name}, {"leaving", leaving_->name}};
+    for (const auto& [of, value] : findings.values) {
+      if (of == "rule" || of == "distance")
+        notes.push_back({of, value});
+      else
+        notes.push_back({of, static_cast<int>(value)});
+    }
+    return notes;
+  }
+
+  void hollow(const Table&, Findings& findings) const override {
+    findings.values = {{"bonds", 0.0}, {"distance", 0.0}, {"isolators", 0.0}, {"joints", 0.0}, {"rule", 0.0}};
   }
 
   std::vector<StudyFigure> study_figures() const override {
@@ -113,6 +126,12 @@ class AttenuationOutput final : public Output {
     table = empty_table(columns());
     std::vector<double> strongest;
     findings.warnings.clear();
+    const JointPath path = path_in(end.problem);
+    findings.values = {{"bonds", path.bonded},
+                       {"distance", path.distance},
+                       {"isolators", path.isolators},
+                       {"joints", path.bolted},
+                       {"rule", path.is_connected ? path.rule() : not_a_number}};
     for (size_t axis = 0; axis < axes().size(); ++axis) {
       const Srs in = spectrum_of(end.problem, srs_, end.result.tables.at(entering_.get()), axis + 1);
       const Srs out = spectrum_of(end.problem, srs_, end.result.tables.at(leaving_.get()), axis + 1);
@@ -132,10 +151,23 @@ class AttenuationOutput final : public Output {
         table.columns[i + 2].push_back(in > nothing * strongest[b] ? 20.0 * std::log10(out / in) : not_a_number);
       }
     if (table.n_rows() > 0)
-      findings.lines = {summary(table, judged_by(end.problem, end.result.tables.at(entering_.get())))};
+      findings.lines = {summary(table, judged_by(end.problem, end.result.tables.at(entering_.get())), path)};
   }
 
  private:
+  // Between the places of the histories, with the number of joints that the deck gives.
+  JointPath path_in(const Problem& problem) const {
+    const auto place = [](const Output& of) {
+      const auto* placed = dynamic_cast<const Placed*>(&of);
+      const std::optional<FaceOrRegion> found = placed ? check::place_of(placed->places().front()) : std::nullopt;
+      CHECK(found, "an acceleration has no place");
+      return *found;
+    };
+    JointPath path = joint_path(problem, place(*entering_), place(*leaving_));
+    if (n_joints_) path.bolted = *n_joints_, path.bonded = path.isolators = 0, path.is_connected = true;
+    return path;
+  }
+
   // Of the columns' names.
   std::vector<std::string> axes() const {
     const std::optional<HistoryKind> history = entering_->history();
@@ -157,8 +189,8 @@ class AttenuationOutput final : public Output {
   }
 
   // Mean ratio of each axis over the bands that the record allows to judge, the lowest and the highest, beside the rule
-  // of thumb (-3 dB a bolted joint).
-  std::string summary(const Table& table, const FrequencyRange& judged) const {
+  // of thumb.
+  std::string summary(const Table& table, const FrequencyRange& judged, const JointPath& path) const {
     const std::vector<double>& centres = table.columns[0];
     const auto n_judged = std::count_if(centres.begin(), centres.end(), [&](double f) { return judged.holds(f); });
     if (n_judged == 0)
@@ -186,17 +218,19 @@ class AttenuationOutput final : public Output {
                                      lowest_at, highest, highest_at);
     }
     return fmt::format(
-        "attenuation '{}', mean of {} bands{} (lowest, highest): {}; rule of thumb for {} bolted joint{}: {:+.0f} dB",
-        name, n_judged,
+        "attenuation '{}', mean of {} bands{} (lowest, highest): {}; {}", name, n_judged,
         n_judged < static_cast<long>(centres.size())
             ? fmt::format(", those from {:.4g} to {:.4g} Hz that the record holds", judged.from, judged.to)
             : "",
-        text, n_joints_, n_joints_ == 1 ? "" : "s", -3.0 * n_joints_);
+        text,
+        path.is_connected ? fmt::format("rule of thumb for {}: {:+.1f} dB", path.text(), path.rule())
+                          : "no interfaces lead from one to the other");
   }
 
   OutputPtr entering_, leaving_;  // histories
   SrsSettings srs_;
-  int bands_, n_joints_;  // bands an octave; bolted joints on the way, for the rule of thumb
+  int bands_;                    // an octave
+  std::optional<int> n_joints_;  // bolted, on the way, for the rule of thumb; none: those of the model
 };
 
 }  // namespace

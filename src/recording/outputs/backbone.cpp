@@ -48,8 +48,13 @@ struct Path {
   }
 };
 
-// What a whole cycle after the first loading loses over what its strain energy is: damping ratio; nan without one.
-double damping_of_cycle(const Path& path) {
+// Hz, of the secant over both ends, and damping ratio, what it loses over what its strain energy is.
+struct Cycle {
+  double frequency = std::numeric_limits<double>::quiet_NaN(), damping = frequency;
+};
+
+// The whole one after the first loading; nan without one.
+Cycle cycle_of(const Path& path) {
   constexpr double same = 1e-6;
   const size_t first = path.end_of_loading();
   size_t back = first;
@@ -61,10 +66,10 @@ double damping_of_cycle(const Path& path) {
   const double size = std::abs(path.a[first]);
   if (last == back || std::abs(path.a[back] + path.a[first]) > same * size ||
       std::abs(path.a[last] - path.a[first]) > same * size)
-    return std::numeric_limits<double>::quiet_NaN();
+    return {};
   const double lost = path.area(first, back) + path.area(back, last);
   const double q = 0.25 * (path.q[first] + path.q[last] - 2.0 * path.q[back]);
-  return std::abs(lost) / (2.0 * pi * size * std::abs(q));
+  return {std::sqrt(size / std::abs(q)) / (2.0 * pi), std::abs(lost) / (2.0 * pi * size * std::abs(q))};
 }
 
 class BackboneRecorder : public TableRecorder {
@@ -97,7 +102,8 @@ class BackboneRecorder : public TableRecorder {
   void finish(Table& table, Findings& findings) override {
     if (path_.n() < 2 || path_.a[1] == 0.0) {
       findings.lines = {fmt::format("backbone '{}': NOT MADE: nothing pushes the mode in its steps", name_)};
-      findings.values = {{"cycle_damping", std::numeric_limits<double>::quiet_NaN()}, {"frequency_of_mode", 0.0}};
+      findings.values = {
+          {"cycle_damping", Cycle().damping}, {"cycle_frequency", Cycle().frequency}, {"frequency_of_mode", 0.0}};
     } else {
       tell(findings);
     }
@@ -118,21 +124,26 @@ class BackboneRecorder : public TableRecorder {
 
   void tell(Findings& findings) {
     const size_t last = path_.end_of_loading();
-    double frequency = 0.0, damping = 0.0;
+    const double small = shapes_.frequency(number_), viscous = shapes_.damping_ratio(number_) * small;
+    double frequency = 0.0, damping = 0.0, of_materials = 0.0;
     for (size_t i = 1; i <= last; ++i) {
       const double a = path_.a[i], q = path_.q[i];
       frequency = std::sqrt(a / q) / (2.0 * pi);
       // Masing: both branches of the cycle are the first loading, twice as large.
       const double lost = 8.0 * path_.area(0, i) - 4.0 * a * q;
-      damping = lost / (2.0 * pi * a * q);
-      add_values({std::abs(a), std::abs(q), frequency, damping});
+      of_materials = viscous / frequency;
+      damping = lost / (2.0 * pi * a * q) + of_materials;
+      add_values({std::abs(a), std::abs(q), frequency, damping, of_materials});
     }
-    const double cycle = damping_of_cycle(path_), small = shapes_.frequency(number_);
-    findings.values = {{"cycle_damping", cycle}, {"frequency_of_mode", small}};
+    Cycle cycle = cycle_of(path_);
+    cycle.damping += viscous / cycle.frequency;
+    findings.values = {
+        {"cycle_damping", cycle.damping}, {"cycle_frequency", cycle.frequency}, {"frequency_of_mode", small}};
     std::string line = fmt::format(
         "backbone '{}': mode {} of {:.5g} Hz has {:.5g} Hz and {:.3g} % of critical damping at {:.4g} m/s^2", name_,
         number_, small, frequency, 100.0 * damping, std::abs(path_.a[last]));
-    if (std::isfinite(cycle)) line += fmt::format(", {:.3g} % by a whole cycle", 100.0 * cycle);
+    if (std::isfinite(cycle.damping))
+      line += fmt::format(", {:.5g} Hz and {:.3g} % by a whole cycle", cycle.frequency, 100.0 * cycle.damping);
     findings.lines = {line + (missed_ > 0 ? fmt::format("; NOT CONVERGED: {} increments", missed_) : "")};
   }
 
@@ -168,7 +179,11 @@ class BackboneOutput final : public Output {
   }
 
   Columns columns() const override {
-    return {{"acceleration", "m/s^2"}, {"displacement", "m"}, {"frequency", "Hz"}, {"damping", ""}};
+    return {{"acceleration", "m/s^2"},
+            {"displacement", "m"},
+            {"frequency", "Hz"},
+            {"damping", ""},
+            {"material_damping", ""}};
   }
   Notes record(const Table&, const Findings& findings) const override {
     Notes notes = {{"mode", number_}};

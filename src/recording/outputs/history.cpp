@@ -6,6 +6,7 @@
 #include "model/places.hpp"
 #include "model/refusal.hpp"
 #include "recording/output_table.hpp"
+#include "recording/placed.hpp"
 #include "recording/recorder.hpp"
 #include "watch/growth.hpp"
 #include "watch/surface_sums.hpp"
@@ -158,7 +159,7 @@ class HistoryRecorder : public TableRecorder {
   std::vector<WeightedNodes> groups_;
 };
 
-class HistoryOutput final : public Output {
+class HistoryOutput final : public Output, public Placed {
  public:
   explicit HistoryOutput(const ModelArguments& a)
       : Output(a), request_{a.targets("on"), quantity_named(a.text("quantity")), {}, {}} {
@@ -259,6 +260,7 @@ class HistoryOutput final : public Output {
   std::optional<HistoryKind> history() const override {
     return HistoryKind{request_.what.name, request_.direction.has_value()};
   }
+  const std::vector<Target>& places() const override { return request_.on; }
 
  private:
   void check_axes(const Problem& problem, const Substructure& part) const {

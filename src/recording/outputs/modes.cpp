@@ -262,6 +262,7 @@ class ModesOutput final : public Output, public ModeShapes {
   }
   double generalised_mass(int number) const override { return later_->modes->generalised_masses[number - 1]; }
   double frequency(int number) const override { return later_->modes->frequencies[number - 1]; }
+  double damping_ratio(int number) const override { return later_->modes->damping_ratios[number - 1]; }
 
  private:
   // Of a part in what is kept; -1 before a run.
