@@ -32,6 +32,9 @@ class Factor {
   void forward(Eigen::Ref<Mat> x) const;
   // Given x_b: x_I <- L_II^-T (x_I - L_bI^T x_b).
   void backward(Eigen::Ref<Mat> x) const;
+  // The same of up to 16 vectors side by side, in less time where the factor is in single precision (PackedFactor).
+  void forward_together(std::span<double* const> x) const { interior_.forward_together(x, size()); }
+  void backward_together(std::span<double* const> x) const { interior_.backward_together(x, size()); }
   // x <- A^-1 x, where no unknown is the interface's.
   void solve(Eigen::Ref<Mat> x) const;
   // Schur complement of A on the interface, A_bb - L_bI L_bI^T (n_interface x n_interface, in factor order); once.

@@ -1,6 +1,7 @@
 // The interior of a supernodal Cholesky factor, packed for substitution, and a symmetric matrix packed for products.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "numerics/panels.hpp"
@@ -36,6 +37,11 @@ class PackedFactor {
   // gone through. The unknowns of the others stay as they are.
   void forward(Vec& x, const std::vector<char>& reach) const { forward_one(x.data(), &reach); }
   void backward(Vec& x, const std::vector<char>& reach) const { backward_one(x.data(), &reach); }
+
+  // The same of up to 16 vectors of n unknowns, side by side. In single precision sums of 16 panels or tiles at most
+  // are in single precision, which is not to the bits of one vector by itself.
+  void forward_together(std::span<double* const> x, int n) const;
+  void backward_together(std::span<double* const> x, int n) const;
 
   double bytes() const {
     return panels_.bytes() + static_cast<double>(below_.size() * sizeof(int) + blocks_.size() * sizeof(Block));
@@ -77,6 +83,8 @@ class SymmetricOperator {
   int size() const { return n_; }
   // y = A x.
   void multiply(const Vec& x, Vec& y) const;
+  // The same of up to 16 vectors, side by side.
+  void multiply_together(std::span<const double* const> x, std::span<double* const> y) const;
   // The matrix as it is stored; its lower triangle is valid.
   Mat lower() const;
   double bytes() const { return panels_.bytes(); }

@@ -8,8 +8,9 @@
 namespace dygita {
 
 namespace panel {
-constexpr int width = 8;    // most columns of a panel
-constexpr int height = 16;  // rows of a tile
+constexpr int width = 8;      // most columns of a panel
+constexpr int height = 16;    // rows of a tile
+constexpr int together = 16;  // most right-hand sides side by side
 enum Kind { full, float_32, int_16, int_8, n_kinds };
 
 struct Tile {
@@ -62,6 +63,12 @@ struct PanelKernels {
   void (*backward_many)(const panel::View&, double* y, int n);
   void (*multiply_double)(const panel::View&, const double* x, double* y);
   void (*multiply_single)(const panel::View&, const float* x, double* y);
+  // 16 right-hand sides, of panels in single precision: what is to be added to y, or y itself, is in single precision
+  // too (Panels)
+  void (*forward_sixteen)(const panel::View&, double* y, float* below);
+  void (*backward_sixteen)(const panel::View&, double* y, float* rows);
+  void (*multiply_double_sixteen)(const panel::View&, const double* x, double* y);
+  void (*multiply_single_sixteen)(const panel::View&, const float* x, float* below, double* y);
   // y += K x, four numbers a node, of which the last of x is zero and of y is left alone
   void (*add_edge_product)(const EdgeView&, const double* x, double* y);
   // y += C x, of a matrix of one number an edge

@@ -175,6 +175,19 @@ void Panels::multiply_symmetric(size_t i, const float* x, double* y) const {
   panel_kernels().multiply_single(view(panels_[i]), x, y);
 }
 
+void Panels::forward(size_t i, double* y, float* below) const {
+  panel_kernels().forward_sixteen(view(panels_[i]), y, below);
+}
+void Panels::backward(size_t i, double* y, float* rows) const {
+  panel_kernels().backward_sixteen(view(panels_[i]), y, rows);
+}
+void Panels::multiply_together(size_t i, const double* x, double* y) const {
+  panel_kernels().multiply_double_sixteen(view(panels_[i]), x, y);
+}
+void Panels::multiply_together(size_t i, const float* x, float* below, double* y) const {
+  panel_kernels().multiply_single_sixteen(view(panels_[i]), x, below, y);
+}
+
 void Panels::unpack(size_t i_panel, double* values, int stride) const {
   const Panel& panel = panels_[i_panel];
   for (int c = 0; c < panel.n_columns; ++c) std::fill_n(values + static_cast<size_t>(c) * stride, panel.n_rows, 0.0);

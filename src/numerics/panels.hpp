@@ -32,7 +32,7 @@ class Chunks {
 // single precision, all longer sums in double.
 class Panels {
  public:
-  static constexpr int width = panel::width, height = panel::height;
+  static constexpr int width = panel::width, height = panel::height, together = panel::together;
 
   explicit Panels(Precision precision = Precision::double_precision) : precision_(precision) {}
 
@@ -58,6 +58,14 @@ class Panels {
   void multiply_symmetric(size_t panel, const double* x, double* y) const;
   // The same in single precision, for panels stored so; sums of more than 16 tiles are in double.
   void multiply_symmetric(size_t panel, const float* x, double* y) const;
+  // Sixteen right-hand sides at once, 16 values per row, of panels in single precision. below: what other panels have
+  // left to be added to y and this one leaves, so that the sums of at most 16 panels are in single precision; rows: y
+  // in single precision, where the columns of this panel are added.
+  void forward(size_t panel, double* y, float* below) const;
+  void backward(size_t panel, double* y, float* rows) const;
+  // y, or y and what is left to be added to it, += A x; in double or in single precision.
+  void multiply_together(size_t panel, const double* x, double* y) const;
+  void multiply_together(size_t panel, const float* x, float* below, double* y) const;
   // The panel as a dense matrix, column-major, `stride` apart.
   void unpack(size_t panel, double* values, int stride) const;
 

@@ -41,6 +41,8 @@ class SpdInverse {
   Form form() const { return form_; }
   // y = A^-1 x.
   void multiply(const Vec& x, Vec& y) const;
+  // The same of several vectors.
+  void multiply(std::span<const double* const> x, std::span<double* const> y) const;
   // The same with what is kept of A^-1 roughly.
   bool has_rough() const { return rough_.size() > 0; }
   void multiply_roughly(const Vec& x, Vec& y) const { rough_.multiply(x, y); }

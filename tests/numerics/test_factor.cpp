@@ -133,6 +133,50 @@ TEST(Factor, solves_several_right_hand_sides_as_it_solves_one) {
   }
 }
 
+std::vector<double*> columns_of(Mat& x) {
+  std::vector<double*> columns;
+  for (Eigen::Index c = 0; c < x.cols(); ++c) columns.push_back(x.col(c).data());
+  return columns;
+}
+
+// Supernodes of more than sixteen panels among them, beyond which sums go into double precision.
+TEST(Factor, solves_side_by_side_what_it_solves_one_by_one) {
+  const Grid g = grid(9, 3);
+  for (const Precision precision : {Precision::double_precision, Precision::single_precision})
+    for (const int n : {1, 5, 16}) {
+      const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid", precision);
+      const Mat start = Mat::Random(g.matrix.rows(), n);
+      const double tolerance = precision == Precision::double_precision ? 1e-14 : 3e-7;
+      Mat together = start, alone = start;
+      factor.forward_together(columns_of(together));
+      for (int c = 0; c < n; ++c) factor.forward(alone.col(c));
+      EXPECT_LT((together - alone).norm(), tolerance * alone.norm()) << n;
+      together = alone = start;
+      factor.backward_together(columns_of(together));
+      for (int c = 0; c < n; ++c) factor.backward(alone.col(c));
+      EXPECT_LT((together - alone).norm(), tolerance * alone.norm()) << n;
+    }
+}
+
+TEST(SpdInverse, multiplies_side_by_side_what_it_multiplies_one_by_one) {
+  for (const int n : {1, 17, 300}) {
+    const Mat random = Mat::Random(n, n);
+    const Mat matrix = random * random.transpose() + n * Mat::Identity(n, n);
+    for (const auto form : {SpdInverse::Form::matrix, SpdInverse::Form::factor})
+      for (const Precision precision : {Precision::double_precision, Precision::single_precision})
+        for (const int n_vectors : {2, 16, 21}) {
+          const SpdInverse inverse(matrix, form, {precision, 1e-9}, "matrix");
+          Mat in = Mat::Random(n, n_vectors), out = Mat::Zero(n, n_vectors), alone = out;
+          const std::vector<double*> to = columns_of(out), from = columns_of(in);
+          inverse.multiply(std::vector<const double*>(from.begin(), from.end()), to);
+          Vec y;
+          for (int c = 0; c < n_vectors; ++c) inverse.multiply(in.col(c), y), alone.col(c) = y;
+          EXPECT_LT((out - alone).norm(), (precision == Precision::double_precision ? 1e-14 : 3e-7) * alone.norm())
+              << n << ", " << n_vectors;
+        }
+  }
+}
+
 TEST(Factor, in_single_precision_stays_linear_and_symmetric) {
   const Grid g = without_interface(7, 3);
   const Factor exact(g.matrix, g.node_of_dof, g.is_interface, "grid");

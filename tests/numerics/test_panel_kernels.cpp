@@ -123,6 +123,53 @@ TEST_P(Kernels, substitute_several_right_hand_sides_as_plain_loops_do) {
   });
 }
 
+// One of sixteen vectors that lie side by side.
+Vec of_sixteen(const Vec& y, int which, int n_rows) {
+  return Eigen::Map<const Vec, 0, Eigen::InnerStride<>>(y.data() + which, n_rows,
+                                                        Eigen::InnerStride<>(Panels::together));
+}
+
+TEST_P(Kernels, substitute_sixteen_right_hand_sides_as_plain_loops_do) {
+  for_each_case(false, [](const PanelCase& c) {
+    if (c.precision == Precision::double_precision) return;  // those have no sums in single precision
+    const int side = Panels::together;
+    const Vec all = c.vector(side), left = 0.25 * c.vector(side).reverse();
+    Vec down = all, up = all;
+    up.tail(room * side).setZero();
+    Eigen::VectorXf below = left.cast<float>(), rows = up.cast<float>();
+    c.panels.forward(0, down.data(), below.data());
+    c.panels.backward(0, up.data(), rows.data());
+    const Vec sum = down + below.cast<double>();
+    for (int s = 0; s < side; ++s) {
+      const auto one = [&](const Vec& y) { return of_sixteen(y, s, c.n_rows); };
+      expect_close(one(sum), c.forward(one(all) + one(left)), c.tolerance());
+      expect_close(one(up), c.backward(one(all)), c.tolerance());
+      expect_close(one(rows.cast<double>()).head(c.n_columns), one(up).head(c.n_columns), 1e-7);
+    }
+  });
+}
+
+TEST_P(Kernels, multiply_sixteen_vectors_as_plain_loops_do) {
+  for_each_case(true, [](const PanelCase& c) {
+    const int side = Panels::together;
+    Vec x = c.vector(side), y = 0.5 * c.vector(side).reverse();
+    const Vec before = y;
+    x.tail(room * side).setZero();
+    if (c.precision == Precision::double_precision) {
+      c.panels.multiply_together(0, x.data(), y.data());
+    } else {
+      const Eigen::VectorXf single = x.cast<float>();
+      Eigen::VectorXf below = Eigen::VectorXf::Zero(y.size());
+      c.panels.multiply_together(0, single.data(), below.data(), y.data());
+      y += below.cast<double>();
+    }
+    for (int s = 0; s < side; ++s) {
+      const auto one = [&](const Vec& v) { return of_sixteen(v, s, c.n_rows + room); };
+      expect_close(one(y).head(c.n_rows), c.product(one(x), one(before)).head(c.n_rows), c.tolerance());
+    }
+  });
+}
+
 TEST_P(Kernels, multiply_as_plain_loops_do) {
   for_each_case(true, [](const PanelCase& c) {
     Vec x = c.vector(), y = 0.5 * c.vector();

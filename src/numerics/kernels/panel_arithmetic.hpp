@@ -8,6 +8,7 @@
 #include "numerics/kernels/edge_product.hpp"
 #include "numerics/kernels/many_vectors.hpp"
 #include "numerics/kernels/one_vector.hpp"
+#include "numerics/kernels/sixteen_vectors.hpp"
 
 namespace dygita::DYGITA_ISA {
 
@@ -35,12 +36,35 @@ void multiply_double(const View& view, const double* x, double* y) {
 void multiply_single(const View& view, const float* x, double* y) {
   with_width(view.n_columns, [&](auto n) { multiply_panel<n>(view, x, y); });
 }
+void forward_sixteen(const View& view, double* y, float* below) {
+  with_width(view.n_columns, [&](auto n) { forward_panel_sixteen<n>(view, y, below); });
+}
+void backward_sixteen(const View& view, double* y, float* rows) {
+  with_width(view.n_columns, [&](auto n) { backward_panel_sixteen<n>(view, y, rows); });
+}
+void multiply_double_sixteen(const View& view, const double* x, double* y) {
+  with_width(view.n_columns, [&](auto n) { multiply_panel_sixteen<n>(view, x, y); });
+}
+void multiply_single_sixteen(const View& view, const float* x, float* below, double* y) {
+  with_width(view.n_columns, [&](auto n) { multiply_panel_sixteen<n>(view, x, below, y); });
+}
 
 #define DYGITA_TEXT_OF(name) #name
 #define DYGITA_TEXT(name) DYGITA_TEXT_OF(name)
-const PanelKernels kernels{DYGITA_TEXT(DYGITA_ISA), forward,         backward,        forward_many,
-                           backward_many,           multiply_double, multiply_single, add_edge_product,
-                           add_scalar_edge_product, move_nodes};
+const PanelKernels kernels{DYGITA_TEXT(DYGITA_ISA),
+                           forward,
+                           backward,
+                           forward_many,
+                           backward_many,
+                           multiply_double,
+                           multiply_single,
+                           forward_sixteen,
+                           backward_sixteen,
+                           multiply_double_sixteen,
+                           multiply_single_sixteen,
+                           add_edge_product,
+                           add_scalar_edge_product,
+                           move_nodes};
 
 }  // namespace
 
