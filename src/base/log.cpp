@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/kept_lines.hpp"
 #include "base/names.hpp"
 #include "base/task.hpp"
 #include "base/warnings.hpp"
@@ -16,6 +17,7 @@ std::mutex log_mutex;
 std::vector<std::string> kept_warnings;
 size_t n_serious = 0;  // of them, at the front
 bool is_silent = false;
+std::vector<std::string>* kept_lines = nullptr;
 
 struct Waiting {
   KindOfWarning of;
@@ -66,9 +68,15 @@ void tell(bool is_serious) {
 void say(const std::string& line) {
   const std::scoped_lock lock(log_mutex);
   if (is_silent) return;
+  if (kept_lines) return kept_lines->push_back(line);
   leave_progress_line();
   std::fputs((printable(line) + "\n").c_str(), stdout);
   std::fflush(stdout);
+}
+
+void keep_lines(std::vector<std::string>* there) {
+  const std::scoped_lock lock(log_mutex);
+  kept_lines = there;
 }
 
 void warn(const std::string& message) {

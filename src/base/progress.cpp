@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/kept_lines.hpp"
 #include "base/task.hpp"
 
 namespace dygita {
@@ -40,6 +41,8 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 }  // namespace
 
 void set_progress_enabled(bool enabled) { progress_enabled = enabled ? 1 : 0; }
+
+bool is_progress_enabled() { return progress_enabled != 0; }
 
 void leave_progress_line() {
   if (line_is_open.exchange(false)) std::fputs("\r\033[K", stderr);

@@ -74,8 +74,8 @@ const std::vector<std::pair<std::string, std::regex>> owners = {
 
 // The standard library's and the operating system's.
 const std::regex system_header(
-    "^[a-z_0-9]+$|^(stdlib|signal|fcntl|link|malloc|poll|sched|spawn|unistd|linux/[a-z]+|sys/"
-    "[a-z]+|[a-z]mmintrin)\\.h$");
+    "^[a-z_0-9]+$|^(stdlib|signal|fcntl|link|malloc|poll|sched|spawn|ucontext|unistd|linux/[a-z]+|sanitizer/[a-z_]+|"
+    "sys/[a-z]+|[a-z]mmintrin)\\.h$");
 
 bool is_owned_by(const std::string& module, const std::string& header) {
   return std::any_of(owners.begin(), owners.end(), [&](const auto& owner) {
