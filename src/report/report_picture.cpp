@@ -340,10 +340,8 @@ std::string caption_of_limit(const Json& limit, const Json& parts) {
                        name, at, instant);
   if (kind == "stress") {
     const double yield = part < parts.size() ? number(parts[part], "yield") : 0.0, peak = number(limit, "value");
-    return fmt::format(
-        "Smallest margin against yield, {:.3g} %: '{}', {} of {}, at ({}) mm. Colours: stress in step '{}', {}.",
-        100.0 * (yield / peak - 1.0), name, with_unit(peak, "Pa"), with_unit(yield, "Pa"), at, text(limit, "step"),
-        with_unit(number(limit, "time"), "s"));
+    return fmt::format("Smallest margin against yield, {:.3g} %: '{}', {} of {}, at ({}) mm. Colours: stress {}.",
+                       100.0 * (yield / peak - 1.0), name, with_unit(peak, "Pa"), with_unit(yield, "Pa"), at, instant);
   }
   return fmt::format("Largest {}: '{}', {}, at ({}) mm, on '{}'.", kind, name, with_unit(number(limit, "value"), "m"),
                      at, part < parts.size() ? text(parts[part], "name") : "");
@@ -357,11 +355,13 @@ std::string limits_section(const RunFolder& run) {
   const Json parts = run.record().value("substructures", Json::array());
   for (const Json& limit : run.scenes()["limits"]) {
     const std::string caption = caption_of_limit(limit, parts);
-    figures.push_back(doubted_figure(run,
-                                     text(limit, "kind") == "stress"
-                                         ? by_field(limit, parts, caption, {"von Mises stress", "Pa", true})
-                                         : by_light(limit, caption),
-                                     caption));
+    const std::string kind = text(limit, "kind");
+    figures.push_back(
+        doubted_figure(run,
+                       kind == "stress"          ? by_field(limit, parts, caption, {"von Mises stress", "Pa", true})
+                       : kind == "failure_index" ? by_field(limit, parts, caption, {"failure index", "", true})
+                                                 : by_light(limit, caption),
+                       caption));
   }
   return doubted_section(run, "Closest to its limits", html::row(figures));
 }

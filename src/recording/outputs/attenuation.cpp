@@ -159,7 +159,7 @@ class AttenuationOutput final : public Output {
   JointPath path_in(const Problem& problem) const {
     const auto place = [](const Output& of) {
       const auto* placed = dynamic_cast<const Placed*>(&of);
-      const std::optional<FaceOrRegion> found = placed ? check::place_of(placed->places().front()) : std::nullopt;
+      const std::optional<FaceOrRegion> found = placed ? place_of(placed->places().front()) : std::nullopt;
       CHECK(found, "an acceleration has no place");
       return *found;
     };
