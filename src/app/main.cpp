@@ -44,9 +44,11 @@ int fail(const char* message, int code) {
   return say_error(message, code);
 }
 
+constexpr const char* nothing_solved =
+    "stopped; nothing was solved, meshes that were finished are kept: start it again";
+
 int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
-  if (outcome.interrupted && task_was_interrupted())
-    return say_error("stopped; nothing was solved, meshes that were finished are kept: start it again", stopped);
+  if (outcome.interrupted && task_was_interrupted()) return say_error(nothing_solved, stopped);
   if (outcome.interrupted) return say_error(when_stopped, stopped);
   for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
   if (!outcome.differing.empty()) return say_error(outcome.differing.c_str(), not_converged);
@@ -70,7 +72,7 @@ int run_or_check(Command& asked, bool solves) {
   asked.deck.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
   if (ranks::is_first()) set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
-  const char* when_stopped = "stopped; the results so far are written";
+  const char* when_stopped = solves ? "stopped; the results so far are written" : nothing_solved;
   if (!ranks::is_alone() && !asked.repeats.empty())
     throw InputError("dygita run --repeat: cannot run on several MPI ranks\n    start it without mpirun");
   if (!ranks::is_first()) asked.deck.write_files = false;

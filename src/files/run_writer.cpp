@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/parallel_by_cost.hpp"
+#include "base/task.hpp"
 #include "files/bolt_table.hpp"
 #include "files/collection.hpp"
 #include "files/csv.hpp"
@@ -142,7 +143,9 @@ void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
   write_lists();
   const std::vector<std::string> steps = step_names(problem);
   std::set<std::string> written;
+  Task task("files", static_cast<int>(problem.outputs.size()), Task::Interrupts::wait);
   for (const OutputPtr& output : problem.outputs) {  // in the deck's order
+    task.done(output->known_as());
     const auto table = result.tables.find(output.get());
     if (table == result.tables.end()) continue;
     const Findings& findings = result.findings_of(*output);
@@ -188,7 +191,9 @@ void RunWriter::write_field(const std::string& name, const std::vector<Frame>& f
   refuse_links(directory_, folder);
   make_directory(directory_ / folder);
   Collection collection;
+  Task task("frames of '" + name + "'", static_cast<int>(frames.size()), Task::Interrupts::wait);
   for (size_t i = 0; i < frames.size(); ++i) {
+    task.done("written");
     const fs::path file = folder / fmt::format("{}_{:05}.vtu", name, i);
     if (!frames[i].interfaces.empty()) {
       index_->manifest.add(file);

@@ -7,7 +7,7 @@
 namespace dygita {
 
 void Told::heed_interrupt(int iteration, int every) {
-  if ((ranks::is_alone() || iteration % every == every - 1) && ranks::any(interrupt_requested())) throw LeftUnsolved();
+  if ((ranks::is_alone() || iteration % every == every - 1) && ranks::any(interrupt_requested())) throw Abandoned();
 }
 
 void Told::tell_iteration(const Best& best, int n_turned) {
@@ -26,7 +26,7 @@ void Told::tell(const std::string& doing) {
 // Ranks solve the same system each: one that left it would leave the others waiting.
 void Told::watch(TangentIteration& iteration) {
   iteration.be_watched([this](const std::string& doing) {
-    if (ranks::is_alone() && interrupt_requested()) throw LeftUnsolved();
+    if (ranks::is_alone() && interrupt_requested()) throw Abandoned();
     tell(doing);
   });
 }

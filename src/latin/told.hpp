@@ -4,14 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "base/aside.hpp"
 #include "base/progress.hpp"
 #include "latin/step_data.hpp"
 #include "latin/tangent_iteration.hpp"
 
 namespace dygita {
-
-// The user has stopped the run within an increment, which then does not count.
-struct LeftUnsolved : std::exception {};
 
 class Told {
  public:
@@ -20,7 +18,7 @@ class Told {
   void begin_step() { progress_.emplace(step_.model.step->name, step_.model.step->n_increments()); }
   void end_step() { progress_.reset(); }
 
-  // An increment may take minutes: the user who stops the run does not wait for it. Throws LeftUnsolved.
+  // An increment may take minutes: the user who stops the run does not wait for it. Throws Abandoned.
   static void heed_interrupt(int iteration, int every);
   // n_turned: points that answer otherwise than before.
   void tell_iteration(const Best& best, int n_turned);

@@ -1,8 +1,11 @@
 // The steps of a problem one after the other, each from the state that the last one left.
 #include <chrono>
+#include <optional>
 #include <utility>
 
+#include "base/aside.hpp"
 #include "base/progress.hpp"
+#include "base/task.hpp"
 #include "latin/search_direction.hpp"
 #include "marching/shared_trail.hpp"
 #include "marching/sharing.hpp"
@@ -47,9 +50,14 @@ void share_on_machine(const Problem& problem, const Cut& cut) {
 void make_operators(const Problem& problem, const std::vector<Surface>& surfaces, SharedOperators& operators,
                     const SharePlan& plan) {
   if (operators.are_made()) return;
-  const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
-  share_on_machine(problem, *cut);
-  operators.make_for(problem, surfaces, cut);
+  try {
+    const MayBeAbandoned may(ranks::is_alone());
+    const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
+    share_on_machine(problem, *cut);
+    operators.make_for(problem, surfaces, cut);
+  } catch (const Abandoned&) {
+    throw Interrupted();
+  }
 }
 
 }  // namespace
@@ -77,29 +85,34 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
   SolverFigures figures;
   figures.pieces = cut->counts();
   figures.seconds["assemble"] = lap();
-  for (const StepPtr& step : problem.steps) {
-    if (ranks::any(interrupt_requested())) break;
-    StepModel model = make_step_model(problem, *step, surfaces, state, operators);
-    if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
-    const InterfaceFields* const start_fields = start_from.of_step(figures.steps.size());
-    const StepSettings settings = step_settings(problem, model, start_fields != nullptr);
-    start_step(model, state);
-    if (step == problem.steps.back() && !shares) give_up_matrices(bodies);
-    const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
-    fix_search_directions(model, k);
-    RunFiles files{state, observer, start_fields, *kept, trail};
-    if (may_go_in_one(problem, model))
-      files.pieces_in_one = [&bodies](const StepModel& of) { return make_assembled_pieces(of, bodies); };
-    StepRun run(settings, model, k, files);
-    figures.seconds["factor"] += lap();
-    figures.stopped_by = run_as_far_as_it_goes(run, figures);
-    if (!figures.stopped_by && !run.is_left_unsolved()) end_step(model, state);
-    figures.steps.push_back(run.figures());
-    figures.steps.back().seconds = lap();
-    figures.free.push_back(model.what_is_free());
-    run.add_to(figures);
-    if (figures.stopped_by) break;
-    if (shares) operators.keep(figures.steps.size() - 1, model);
+  try {
+    for (const StepPtr& step : problem.steps) {
+      if (ranks::any(interrupt_requested())) break;
+      std::optional<MayBeAbandoned> until_it_runs(std::in_place, ranks::is_alone());
+      StepModel model = make_step_model(problem, *step, surfaces, state, operators);
+      if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
+      const InterfaceFields* const start_fields = start_from.of_step(figures.steps.size());
+      const StepSettings settings = step_settings(problem, model, start_fields != nullptr);
+      start_step(model, state);
+      if (step == problem.steps.back() && !shares) give_up_matrices(bodies);
+      const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
+      fix_search_directions(model, k);
+      RunFiles files{state, observer, start_fields, *kept, trail};
+      if (may_go_in_one(problem, model))
+        files.pieces_in_one = [&bodies](const StepModel& of) { return make_assembled_pieces(of, bodies); };
+      StepRun run(settings, model, k, files);
+      until_it_runs.reset();
+      figures.seconds["factor"] += lap();
+      figures.stopped_by = run_as_far_as_it_goes(run, figures);
+      if (!figures.stopped_by && !run.is_left_unsolved()) end_step(model, state);
+      figures.steps.push_back(run.figures());
+      figures.steps.back().seconds = lap();
+      figures.free.push_back(model.what_is_free());
+      run.add_to(figures);
+      if (figures.stopped_by) break;
+      if (shares) operators.keep(figures.steps.size() - 1, model);
+    }
+  } catch (const Abandoned&) {  // before the step has begun
   }
   tell_run(kept, figures);
   tell_ranks(surfaces, *cut, traffic_before, figures);

@@ -25,7 +25,7 @@ void StepRun::run_increments() {
     const int last = std::min(i + window, n);
     try {
       increments_->solve(i, last);
-    } catch (const LeftUnsolved&) {
+    } catch (const Abandoned&) {
       is_left_unsolved_ = true;
       return;
     }

@@ -71,7 +71,7 @@ int factorise_columns(int n_rows, int n_columns, double* a, int stride, const Wa
   return -1;
 }
 
-void invert_factor(Mat& l) {
+void invert_factor(Mat& l, const Watch& watch) {
   const int n = static_cast<int>(l.rows());
   const int threads = threads_for(static_cast<double>(n) * n * n / 3);
   Mat x(n, n);  // L^-1
@@ -79,6 +79,7 @@ void invert_factor(Mat& l) {
       blocks_of(n),
       [&](int block) {
         const int j = block * block_columns, w = std::min(block_columns, n - j);
+        if (watch) watch();
         x.block(j, j, n - j, w).setIdentity();
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n - j, w, 1.0,
                     entry(l.data(), n, j, j), n, entry(x.data(), n, j, j), n);
@@ -90,6 +91,7 @@ void invert_factor(Mat& l) {
       [&](int block) {
         const int j = block * block_columns, w = std::min(block_columns, n - j);
         for (int i = j; i < n; i += block_columns) {
+          if (watch) watch();
           const int h = std::min(block_columns, n - i);
           cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, h, w, n - i, 1.0, entry(x.data(), n, i, i), n,
                       entry(x.data(), n, i, j), n, 0.0, entry(l.data(), n, i, j), n);

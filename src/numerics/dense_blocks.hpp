@@ -20,6 +20,6 @@ void subtract_square(int n, int k, const double* b, int stride_b, double beta, d
                      const Watch& watch = {});
 
 // (L L^T)^-1 over L (n x n).
-void invert_factor(Mat& l);
+void invert_factor(Mat& l, const Watch& watch = {});
 
 }  // namespace dygita

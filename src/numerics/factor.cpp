@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/aside.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/threads.hpp"
@@ -43,8 +44,9 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   Vec largest_error(size());
   for (int i = 0; i < size(); ++i) largest_error[i] = error * std::sqrt(matrix.coeff(order_[i], order_[i]));
   interior_ = PackedFactor(precision, std::move(largest_error));
-  Eliminated left = eliminate(matrix, order_, n_interior_, interior_supernodes(cholmod, n_interior_),
-                              [&](const SupernodeView& supernode, int place) { interior_.add(supernode, place); });
+  Eliminated left = eliminate(
+      matrix, order_, n_interior_, interior_supernodes(cholmod, n_interior_),
+      [&](const SupernodeView& supernode, int place) { interior_.add(supernode, place); }, give_up_if_stopped);
   interior_.arrange();
   if (left.not_positive >= 0)
     throw NumericalError(

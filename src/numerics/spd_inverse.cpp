@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/aside.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "numerics/dense_blocks.hpp"
@@ -15,7 +16,7 @@ namespace {
 // A = L L^T, L over the lower triangle of A.
 void factorise(Mat& a, const std::string& what) {
   const int n = static_cast<int>(a.rows());
-  if (const int pivot = factorise_columns(n, n, a.data(), n); pivot >= 0)
+  if (const int pivot = factorise_columns(n, n, a.data(), n, give_up_if_stopped); pivot >= 0)
     throw NumericalError(
         fmt::format("{}: the interface operator is not positive definite (unknown {} of {})", what, pivot + 1, n));
 }
@@ -24,7 +25,7 @@ void factorise(Mat& a, const std::string& what) {
 
 Mat inverse_spd(Mat matrix, const std::string& what) {
   factorise(matrix, what);
-  invert_factor(matrix);
+  invert_factor(matrix, give_up_if_stopped);
   return matrix;
 }
 
@@ -51,7 +52,7 @@ SpdInverse::SpdInverse(Mat a, Form form, const Storage& storage, const std::stri
     : n_(static_cast<int>(a.rows())), form_(form) {
   factorise(a, what);
   if (form == Form::matrix) {
-    invert_factor(a);
+    invert_factor(a, give_up_if_stopped);
     matrix_ = SymmetricOperator(a, storage.precision, storage.error);
     if (storage.rough_error > 0.0) rough_ = SymmetricOperator(a, Precision::single_precision, storage.rough_error);
     return;

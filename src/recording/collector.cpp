@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/task.hpp"
 #include "law/law.hpp"
 #include "recording/recorder.hpp"
 #include "result/limits.hpp"
@@ -154,15 +155,19 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
 
 // Those that are made of others' tables come after them.
 void Collector::finish_outputs(RunResult& result) {
+  Task task("outputs", static_cast<int>(recorders_.size() + problem_.outputs.size()), Task::Interrupts::wait);
   for (auto& [output, recorder] : recorders_) {
+    task.tell(output->known_as());
     Table table;
     recorder->finish(table, result.findings[output]);
     if (!output->columns().empty()) result.tables[output] = std::move(table);
+    task.done(output->known_as());
   }
   RunEnd end{problem_, result, parts_.errors().dynamic_steps(), parts_.errors().static_steps()};
   end.errors.imbalance = of_motion_.imbalance_so_far(parts_.errors().energy_at_rest());
   end.errors.joints_change = joints_give_ || contacts_change(problem_, result.contacts);
   for (const OutputPtr& output : problem_.outputs) {
+    task.done(output->known_as());
     if (output->columns().empty()) continue;
     Table& table = result.tables[output.get()];
     Findings& findings = result.findings[output.get()];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/aside.hpp"
 #include "base/clock.hpp"
 #include "base/progress.hpp"
 #include "reference/interface_newton.hpp"
@@ -290,9 +291,11 @@ void MonolithicRun::add_to(SolverFigures& figures) const {
 
 void MonolithicSteps::run(const Step& step, State& state, Observer& observer, SolverFigures& figures) {
   auto start = Clock::now();
+  std::optional<MayBeAbandoned> until_it_runs(std::in_place);
   StepModel model = make_assembled_model(problem_, step, surfaces_, bodies_, state);
   MonolithicRun run(problem_, settings_, model, state, observer, factor_);
   factor_ = run.factor();
+  until_it_runs.reset();
   figures.seconds["factor"] += seconds_since(start);
   start = Clock::now();
   figures.stopped_by = run_as_far_as_it_goes(run, figures);
@@ -315,7 +318,10 @@ SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
   MonolithicSteps steps(problem, *problem.monolithic, surfaces, bodies);
   for (const StepPtr& step : problem.steps) {
     if (interrupt_requested() || figures.stopped_by) break;
-    steps.run(*step, state, observer, figures);
+    try {
+      steps.run(*step, state, observer, figures);
+    } catch (const Abandoned&) {  // before the step has begun
+    }
   }
   figures.interrupted = figures.stopped_by || interrupt_requested();
   return figures;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/aside.hpp"
 #include "base/memory.hpp"
 #include "base/warnings.hpp"
 #include "checks/check_problem.hpp"
@@ -18,6 +19,7 @@ namespace dygita {
 
 std::string check_report(const Problem& problem) {
   check_problem(problem);
+  const MayBeAbandoned may;
   const std::vector<Surface> surfaces = make_surfaces(problem);
   doubt_neighbours(problem, surfaces);
   doubt_lumped_inertia(problem);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/aside.hpp"
 #include "base/error.hpp"
 #include "base/task.hpp"
 #include "numerics/dense.hpp"
+#include "ranks/ranks.hpp"
 #include "step/make_pieces.hpp"
 
 namespace dygita {
@@ -96,6 +98,7 @@ void AssembledSystem::put_in_order(const SparseMatrix& pattern) {
     const int before = nodes.empty() ? 0 : nodes.back() + 1;
     for (const int node : piece->op().unknowns().node_of_unknown()) nodes.push_back(before + node);
   }
+  const MayBeAbandoned may(ranks::is_alone());
   factor_ = std::make_unique<RepeatedFactor>(pattern, nodes, "static step '" + model_->step->name + "'");
   position_.resize(n);
   entry_at_.resize(n);

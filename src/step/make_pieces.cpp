@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel_by_cost.hpp"
+#include "base/task.hpp"
 #include "exchange/rigid_motions.hpp"
 #include "fem/cell_tensor.hpp"
 #include "meeting/facing.hpp"
@@ -258,6 +259,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies, cons
     cost.push_back(model.integration.is_explicit_piece(i) || twins[i].piece >= 0 || twins[i].is_made()
                        ? 0.0
                        : std::pow(setups[i].n_nodes(), 2));
+  Task task("factors of step '" + model.step->name + "'", static_cast<int>(model.here.size()), Task::Interrupts::wait);
   for (const bool has_twin : {false, true})
     parallel_by_cost(cost, [&](int at) {
       const int i = model.here[at];
@@ -271,6 +273,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies, cons
                               twins[i].same ? Twin{twins[i].same, Mat3::Identity(), true}
                               : has_twin    ? Twin{built[twins[i].piece].get(), twins[i].turn}
                                             : Twin());
+      task.done("'" + model.problem->substructures[static_cast<size_t>(model.cut->piece(i).part)]->name + "'");
     });
   Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
   parallel_for(n, [&](int i) {

@@ -39,6 +39,14 @@ problem{ name = "joined", substructures = { lower, upper }, interfaces = { joint
   steps = { step.static{ name = "press", loads = { load.pressure{ on = upper:face "zmax", history = history.constant{ value = 1*MPa } } } } } }:run{}
 """
 
+# One body whose factor takes many seconds.
+LARGE = """local cube = substructure{ name = "cube", mesh = mesh.box{ size = { 1, 1, 1 }, cells = { 36, 36, 36 } },
+  material = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7850 } }
+problem{ name = "large", substructures = { cube }, supports = { support.fixed{ name = "base", on = cube:face "zmin" } },
+  solver = solver.latin{ integration = "implicit", pieces = 1 },
+  steps = { step.dynamic{ name = "push", duration = 100*us, dt = 10*us, loads = { load.pressure{ on = cube:face "zmax", history = 1*MPa } } } } }:run{}
+"""
+
 
 def check(condition, what):
     if not condition:
@@ -148,10 +156,19 @@ def a_check_says_which_interface_and_ends():
         check(NOTHING_SOLVED in terminal.said(), "what was kept is not said of a check")
 
 
+def a_factor_ends():
+    terminal = Terminal("run", deck("large.lua", LARGE), "--out", FOLDER / "out", "--threads", "1")
+    wait_for(terminal.said, "factors of step 'push': 0/1", terminal.process)
+    time.sleep(1.0)
+    end_of(terminal.process, signal.SIGTERM, "a factor")
+    check("stopped; the results so far are written" in terminal.said(), f"what was kept is not said of a factor: {terminal.said()[-300:]}")
+
+
 (FOLDER / "slow.geo").write_text(SLOW_SOLID)
 a_log_says_what_is_meshed()
 a_terminal_says_what_is_meshed()
 a_check_says_which_interface_and_ends()
+a_factor_ends()
 for failure in failures:
     print(failure)
 sys.exit(1 if failures else 0)

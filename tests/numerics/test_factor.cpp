@@ -4,7 +4,9 @@
 #include <limits>
 #include <random>
 
+#include "base/aside.hpp"
 #include "base/error.hpp"
+#include "base/progress.hpp"
 #include "base/team.hpp"
 #include "numerics/dense.hpp"
 #include "numerics/dense_blocks.hpp"
@@ -62,6 +64,20 @@ Vec ordered(const Factor& factor, const Vec& x) {
   Vec y(x.size());
   for (int i = 0; i < x.size(); ++i) y[i] = x[factor.order()[i]];
   return y;
+}
+
+TEST(Factor, is_left_where_the_user_stops_and_that_is_expected) {
+  const Grid g = grid(6, 3);
+  const auto make = [&] { return Factor(g.matrix, g.node_of_dof, g.is_interface, "matrix"); };
+  request_interrupt();
+  EXPECT_NO_THROW(make());
+  {
+    const MayBeAbandoned may;
+    EXPECT_THROW(make(), Abandoned);
+    EXPECT_THROW(inverse_spd(Mat::Identity(300, 300), "matrix"), Abandoned);
+  }
+  withdraw_interrupt();
+  EXPECT_NO_THROW(make());
 }
 
 TEST(Factor, solves_as_dense_algebra_does) {

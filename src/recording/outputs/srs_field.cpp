@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/task.hpp"
 #include "meeting/facing.hpp"
 #include "model/refusal.hpp"
 #include "recording/output_table.hpp"
@@ -90,6 +91,7 @@ class FieldRecorder : public Recorder {
     const size_t n_directions = request_.n_directions();
     std::vector<Mat> all(std::size(spectrum_names));
     std::vector<double> value(time_.size());
+    Task task("spectra of '" + request_.name + "'", static_cast<int>(area.nodes.size()), Task::Interrupts::wait);
     for (size_t i = 0; i < area.nodes.size(); ++i) {
       for (size_t d = 0; d < n_directions; ++d) {
         for (size_t t = 0; t < time_.size(); ++t)
@@ -104,6 +106,7 @@ class FieldRecorder : public Recorder {
           for (size_t k = 0; k < all.size(); ++k) all[k](f, node) = part_of(srs, k)[static_cast<size_t>(f)];
         }
       }
+      task.done("nodes");
     }
     return all;
   }
