@@ -24,6 +24,7 @@ class AssembledSystem {
   // Of each point of the exchange, as tangents have them.
   const std::vector<std::vector<int>>& unknowns_of_points() const { return unknowns_of_points_; }
   double bytes() const;  // of factor and matrices, as they will be
+  double operations() const { return factor_ ? factor_->operations() : 0.0; }  // of a factorisation
   // What a step takes beside what this takes now: the factor, what one thread works in, tangents of several iterations.
   double bytes_to_come() const;
 

@@ -10,12 +10,14 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
+#include "law/law.hpp"
 #include "model/model.hpp"
 #include "partition/all_pieces.hpp"
 #include "partition/mass_choice.hpp"
 #include "partition/stored_precision.hpp"
 #include "pieces/longest_step.hpp"
 #include "step/alike_parts.hpp"
+#include "step/step_needs.hpp"
 
 namespace dygita {
 
@@ -46,14 +48,22 @@ double explicit_cost(const Size& size, bool is_tuned) {
          explicit_pair * size.pairs + explicit_point * size.interface_unknowns / 6.0 +
          spread_point * size.spread_points;
 }
+double of_factor(const Size& size) {
+  const double n = size.unknowns, n_b = std::min(size.interface_unknowns, n);
+  return factorising * n * n + condensing * n_b * n_b * n_b;
+}
+double of_iteration(const Size& size, bool is_single) {
+  const double n_b = std::min(size.interface_unknowns, size.unknowns);
+  return 0.5 * n_b * n_b * (is_single ? single_h : double_h) + rest_of_iteration * n_b;
+}
+double of_solves(const Size& size, bool is_single) {
+  return 2.0 * fill * std::pow(size.unknowns, 1.5) * (is_single ? single_factor : double_factor);
+}
 // n_increments: of the step, which the factor is made for. With the settings that nobody has asked for: what is
 // discretised in which way is no matter of how it is solved.
 double implicit_cost(const Size& size, int n_increments) {
   const bool is_single = stored_precision(LatinSettings(), size.unknowns) == Precision::single_precision;
-  const double n = size.unknowns, n_b = std::min(size.interface_unknowns, n);
-  return 2.0 * fill * std::pow(n, 1.5) * (is_single ? single_factor : double_factor) +
-         iterations * (0.5 * n_b * n_b * (is_single ? single_h : double_h) + rest_of_iteration * n_b) +
-         (factorising * n * n + condensing * n_b * n_b * n_b) / n_increments;
+  return of_solves(size, is_single) + iterations * of_iteration(size, is_single) + of_factor(size) / n_increments;
 }
 
 std::vector<double> pairs_of_neighbours(const Cut& cut, const std::vector<Body>& bodies) {
@@ -325,6 +335,47 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
   if (std::find(chosen.is_explicit.begin(), chosen.is_explicit.end(), 1) == chosen.is_explicit.end())
     chosen.is_explicit.clear();
   return chosen;
+}
+
+StepCost predict_cost(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                      const std::vector<Body>& bodies, const Cut& cut, const Integration& integration) {
+  const std::vector<Size> sizes = sizes_of(problem, step, surfaces, pairs_of_neighbours(cut, bodies));
+  StepCost cost;
+  double an_increment = 0.0, an_iteration = 0.0, an_explicit_one = 0.0;
+  std::set<const StoredMatrices*> factorised;  // equal ones once
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    if (!integration.parts.empty() && integration.parts[i].is_explicit) {
+      an_explicit_one += explicit_cost(sizes[i], integration.parts[i].is_tuned);
+      continue;
+    }
+    const bool is_single =
+        !step.is_static && stored_precision(problem.solver, sizes[i].unknowns) == Precision::single_precision;
+    if (factorised.insert(bodies[static_cast<size_t>(cut.first(static_cast<int>(i)))].matrices.get()).second)
+      cost.once.bytes += of_factor(sizes[i]);
+    an_increment += of_solves(sizes[i], is_single);
+    an_iteration += of_iteration(sizes[i], is_single);
+  }
+  const double n = static_cast<double>(step.n_increments()) * integration.n_substeps;
+  // Laws, energies and outputs beside, as in the flanges, the box of electronics and the ring.
+  constexpr double whole_increment = 1.7;
+  const double share = step.is_static ? 1.0 : whole_increment;
+  cost.once.bytes += n * share * (an_increment + an_explicit_one);
+  cost.a_round.bytes = share * an_iteration;
+  const bool turns = may_turn(problem, step, surfaces);
+  constexpr double few_static = 20.0, many_static = 40.0, many_with_contact = 160.0, many_of_shocks = 15.0;
+  cost.fewest = n * (step.is_static ? few_static : iterations);
+  cost.most = n * (step.is_static ? (turns ? many_with_contact : many_static) : turns ? many_of_shocks : iterations);
+  if (an_iteration > 0.0)
+    cost.rounds = cost.fewest < cost.most
+                      ? fmt::format("{:.0f} to {:.0f} iterations an increment", cost.fewest / n, cost.most / n)
+                      : fmt::format("{:.0f} iterations an increment", cost.fewest / n);
+  return cost;
+}
+
+bool may_turn(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
+    return takes_part(problem, step, surface) && surface.declared_law().shown().states;
+  });
 }
 
 }  // namespace dygita

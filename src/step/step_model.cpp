@@ -310,6 +310,15 @@ double bytes_of_condensing(const StepModel& model) {
   return 2.0 * 8.0 * most * most;
 }
 
+// A factor for the search directions, and one for each turn of the points, with some solves that read it.
+StepCost cost_of_system(const AssembledSystem& system, int increments, bool turns) {
+  constexpr double solves = 8.0, fewest = 2.0, most = 12.0;
+  const double n = turns ? most : 1.0, least = turns ? fewest : 1.0;
+  const Cost factor{system.operations(), solves * system.bytes()};
+  return {factor, factor, increments * least, increments * n,
+          turns ? fmt::format("{:.0f} to {:.0f} factors an increment", least, n) : ""};
+}
+
 // All but the pieces.
 StepModel without_pieces(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
@@ -363,10 +372,14 @@ StepNeeds predict_needs(const Problem& problem, const Step& step, const std::vec
   if (is_assembled(problem, step, surfaces)) {
     model.pieces = make_assembled_pieces(model, bodies);
     const AssembledSystem system(model);
-    return {{system.bytes(), model.n_q(), model.integration}, resident_memory() + system.bytes_to_come()};
+    return {{system.bytes(), model.n_q(), model.integration},
+            resident_memory() + system.bytes_to_come(),
+            cost_of_system(system, step.increments, may_turn(problem, step, surfaces))};
   }
   const double bytes = predicted_bytes(model, bodies);
-  return {{bytes, model.n_q(), model.integration}, resident_memory() + bytes + bytes_of_condensing(model)};
+  return {{bytes, model.n_q(), model.integration},
+          resident_memory() + bytes + bytes_of_condensing(model),
+          predict_cost(problem, step, surfaces, bodies, *cut, model.integration)};
 }
 
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
