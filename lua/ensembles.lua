@@ -197,7 +197,17 @@ local function problems_of(given, rows, names, drawn, line)
   return problems
 end
 
--- ensemble{ ... }:run{}: members one after the other, each from its neighbour's fields; then what they come to.
+-- Members after the first, side by side from its fields: whether they could.
+local function run_rest(tour, members, problems, label, line)
+  local own, cases = {}, {}
+  for at = 2, #tour do own[at - 1], cases[at - 1] = problems[tour[at]], label:format(tour[at]) end
+  local results = native.run_together(own, cases, members[tour[1]], line)
+  for at = 2, results and #tour or 0 do members[tour[at]] = results[at - 1] end
+  return results ~= nil
+end
+
+-- ensemble{ ... }:run{}: the first member, and the others side by side where they share its operators and leave no files;
+-- else one after the other, each from its neighbour's fields. Then what they come to.
 function ensembles.run(self, asked, line)
   local given = native.arguments(self)
   local names, drawn = columns_of(given.vary)
@@ -207,7 +217,8 @@ function ensembles.run(self, asked, line)
   native.check_folder(problems[1], asked.case)
   local digits, members, last = ("%d"):format(#("%d"):format(n)), {}, nil
   local label = asked.case .. "_%0" .. digits .. "d"
-  for _, i in ipairs(tour) do
+  for at, i in ipairs(tour) do
+    if at == 2 and not asked.members and run_rest(tour, members, problems, label, line) then break end
     local arguments = { case = label:format(i), check_cold = false, start_from = last, member = asked.members and "written" or "quiet" }
     members[i] = native.call("problem:run", problems[i], arguments, line)
     if last then native.let_go(last) end

@@ -19,6 +19,7 @@
 #include "numerics/panel_choice.hpp"
 #include "ranks/ranks.hpp"
 #include "result/hollow_result.hpp"
+#include "run/side_by_side.hpp"
 
 namespace dygita {
 
@@ -165,9 +166,8 @@ struct AskedCase {
   bool is_quiet = false;     // leaves no folder of its own
 };
 
-// Runs or checks one problem while the deck's clock is stopped.
+// Runs or checks one problem; the deck's clock is stopped.
 DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const AskedCase& asked) {
-  const LuaState::Pause pause(state);
   if (!state.is_solving) {
     std::string report = state.n_members > 1 ? "" : state.engine.check(*problem);  // of members the first tells all
     while (!report.empty() && report.back() == '\n') report.pop_back();
@@ -224,6 +224,10 @@ void note_case(DeckState& state, const DeckResult& result, const std::string& ca
   state.study.add(result.problem->name, std::move(one));
 }
 
+std::string label_of_case(const std::string& problem, const std::string& name) {
+  return fmt::format("problem '{}', case '{}'", problem, name);
+}
+
 // What the engine finds wrong and has no line for is told at the line that runs it.
 DeckResultPtr compute_at(const Origin& origin, DeckState& state, std::shared_ptr<const Problem> problem,
                          const AskedCase& asked) {
@@ -253,7 +257,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
   lua_getfield(L, 3, "case");
   const std::string case_name = lua_tostring(L, -1);
   const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
-  const std::string label = fmt::format("problem '{}', case '{}'", problem->name, case_name);
+  const std::string label = label_of_case(problem->name, case_name);
   if (const char* what = own_file_called(file_name_of(case_name), true))
     throw InputError(origin, fmt::format("{}: its folder would overwrite {}\n    give it another name", label, what));
   if (!state.cases.emplace(problem->name, case_name).second) {
@@ -270,11 +274,93 @@ int run_from_deck(DeckState& state, lua_State* L) {
   const bool is_member = arguments.has("member");
   const bool is_quiet = is_member && arguments.text("member") == "quiet";
   if (is_member && state.n_members++ == 0) state.shared = std::make_shared<OperatorsOfMembers>();
-  DeckResultPtr result = compute_at(origin, state, problem, {case_name, start_from, is_member, is_quiet});
+  const DeckResultPtr result = [&] {
+    const LuaState::Pause pause(state);
+    return compute_at(origin, state, problem, {case_name, start_from, is_member, is_quiet});
+  }();
   if (!is_member) note_case(state, *result, case_name, arguments, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();
   push_object(L, {"result", "result", problem->name, -1, result});
+  return 1;
+}
+
+namespace {
+
+// A member with the others beside it: it keeps its share of the memory for fields, and no fields in the end.
+DeckResultPtr compute_beside(const Origin& origin, DeckState& state, const std::shared_ptr<const Problem>& problem,
+                             const AskedCase& asked, int n) {
+  auto own = std::make_shared<Problem>(*problem);
+  own->solver.history_memory /= n;
+  DeckResult result = *compute_at(origin, state, own, asked);
+  auto run = std::make_shared<RunResult>(*result.run);
+  run->interface_fields = nullptr;
+  run->scenes = nullptr;
+  result.problem = problem;
+  result.run = std::move(run);
+  return std::make_shared<const DeckResult>(std::move(result));
+}
+
+struct Beside {
+  std::shared_ptr<const Problem> problem;
+  AskedCase asked;
+};
+
+// Members as run_together(problems, cases, first, line) has them on the stack; they count as run.
+std::vector<Beside> members_beside(DeckState& state, lua_State* L) {
+  const DeckResultPtr first = the_object_at(L, 3).as<DeckResultPtr>();
+  std::vector<Beside> members;
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, 1)); ++i) {
+    lua_rawgeti(L, 1, i);
+    lua_rawgeti(L, 2, i);
+    const Object& object = the_object_at(L, -2);
+    state.declared.mark_used(object.id);
+    members.push_back({object.as<std::shared_ptr<const Problem>>(), {lua_tostring(L, -1), first, true, true}});
+    lua_pop(L, 2);
+    state.cases.emplace(members.back().problem->name, members.back().asked.name);
+    ++state.outcome.n_runs;
+    ++state.n_members;
+  }
+  return members;
+}
+
+DeckResultPtr with_seconds(const DeckResult& result, double seconds) {
+  DeckResult own = result;
+  auto run = std::make_shared<RunResult>(*own.run);
+  run->seconds["all"] = seconds;
+  own.run = std::move(run);
+  return std::make_shared<const DeckResult>(std::move(own));
+}
+
+}  // namespace
+
+int run_members_together(LuaState& lua, lua_State* L) {
+  DeckState& state = DeckState::of(lua);
+  lua_rawgeti(L, 1, 1);
+  const Problem& one = *the_object_at(L, -1).as<std::shared_ptr<const Problem>>();
+  lua_pop(L, 1);
+  if (!state.is_solving || !state.shared || !can_run_together(one, *state.shared)) return 0;
+  const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
+  const std::vector<Beside> members = members_beside(state, L);
+  const auto n = static_cast<int>(members.size());
+  std::vector<DeckResultPtr> results(members.size());
+  {
+    const LuaState::Pause pause(state);
+    const std::vector<double> seconds = run_together(n, [&](int i) {
+      const Beside& own = members[static_cast<size_t>(i)];
+      results[static_cast<size_t>(i)] =
+          compute_beside(origin, state, own.problem, own.asked, std::min(n, most_together));
+    });
+    for (size_t i = 0; i < results.size(); ++i) results[i] = with_seconds(*results[i], seconds[i]);
+  }
+  lua_createtable(L, n, 0);
+  for (size_t i = 0; i < results.size(); ++i) {
+    const std::string& name = members[i].problem->name;
+    if (!results[i]->run->converged) state.outcome.not_converged.push_back(label_of_case(name, members[i].asked.name));
+    if (results[i]->run->interrupted) throw DeckStopped();
+    push_object(L, {"result", "result", name, -1, results[i]});
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
   return 1;
 }
 

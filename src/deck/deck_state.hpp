@@ -47,4 +47,8 @@ void push_native(DeckState& state);
 // problem:run{}: arguments on the stack as in native.call.
 int run_from_deck(DeckState& state, lua_State* L);
 
+// run_together(problems, cases, first, line): members of an ensemble after the first, which has run, side by side;
+// their results, without fields. Nothing where they cannot: each then runs by itself.
+int run_members_together(LuaState& lua, lua_State* L);
+
 }  // namespace dygita

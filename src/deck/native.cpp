@@ -354,6 +354,7 @@ void push_native(DeckState& state) {
                                        {"call_member", guarded<call_member>},
                                        {"difference_of_members", guarded<compare_members>},
                                        {"check_folder", guarded<check_folder_of_ensemble>},
+                                       {"run_together", guarded<run_members_together>},
                                        {"let_go", guarded<let_go_of_fields>},
                                        {"conclude", guarded<conclude_ensemble>},
                                        {"read", guarded<read>},

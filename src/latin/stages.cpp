@@ -1,5 +1,7 @@
 #include "latin/stages.hpp"
 
+#include "step/joint_solves.hpp"
+
 namespace dygita {
 
 Stages::Stages(StepData& step, const Vec& k)
@@ -10,6 +12,7 @@ Stages::Stages(StepData& step, const Vec& k)
 void Stages::linear_stage(const Vec& q, Vec& velocity, bool is_told) {
   const Stopwatch watch(step_.seconds.interface);
   if (system_) return system_->linear_stage(q, velocity);
+  if (joint::is_joint()) return joint::interface_velocities(step_.model, q, velocity);  // all pieces are here
   const NearUnknowns& near = step_.model.near;
   const auto answer = [&](Piece& piece, int i) {
     piece.interface_velocity(q.segment(near.start(i), piece.n_rows()), velocity.segment(near.start(i), piece.n_rows()));
@@ -44,10 +47,12 @@ std::vector<double> Stages::begin_pieces(int increment) {
   model.loads->evaluate(increment);
   const StepSettings& settings = step_.settings;
   const double quiet = step_.indicator.quiet(settings.more_iterations > 0 ? settings.round_off : settings.tolerance);
+  const bool is_joint = joint::is_joint();
   step_.loops.for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>& members) {
     for (const int i : members) model.pieces[i]->begin(model.piece_force(i, step_.files.state), motions, quiet);
-    group.front()->forward(group);
+    if (!is_joint) group.front()->forward(group);
   });
+  if (is_joint) joint::forward(model);
   return motions;
 }
 
@@ -62,8 +67,10 @@ void Stages::finish_increment(const Vec& found) {
   const Stopwatch watch(step_.seconds.backward);
   const Vec balanced = system_ ? system_->finish(step_.at.velocity, found) : Vec();
   const Vec& q = system_ ? balanced : found;
+  const bool is_joint = joint::is_joint();
+  if (is_joint) joint::backward(step_.model);
   step_.loops.for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>& members) {
-    group.front()->backward(group);
+    if (!is_joint) group.front()->backward(group);
     for (const int i : members) {
       Piece& piece = *step_.model.pieces[i];
       const Points held = piece.has_motions() ? step_.local.held_force(i) : Points();

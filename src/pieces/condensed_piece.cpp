@@ -152,31 +152,36 @@ void CondensedPiece::take_forward() {
   ++n_solved_;
 }
 
+Vec* CondensedPiece::to_substitute_forward() { return is_forward_due_ && is_moved_ ? &work_.x : nullptr; }
+
 void CondensedPiece::forward(std::span<Piece* const> equal) {
   std::vector<Vec*> vectors;
   std::vector<CondensedPiece*> moved;
   for (Piece* piece : equal) {
     auto* own = static_cast<CondensedPiece*>(piece);  // the key is one of these
-    if (!own->is_forward_due_ || !own->is_moved_) continue;
+    Vec* const x = own->to_substitute_forward();
+    if (!x) continue;
     moved.push_back(own);
-    vectors.push_back(&own->work_.x);
+    vectors.push_back(x);
   }
   if (!moved.empty()) together(vectors, [&](auto& x) { condensation_.factor->forward(x); });
   for (CondensedPiece* piece : moved) piece->take_forward();
 }
 
+Vec* CondensedPiece::to_substitute_backward() {
+  if (!is_moved_) {
+    n_spared_ += 2;
+    return nullptr;
+  }
+  if (n_rows() > 0) work_.x.tail(dv_b_.size()) = dv_b_;
+  ++n_solved_;
+  return &work_.x;
+}
+
 void CondensedPiece::backward(std::span<Piece* const> equal) {
   std::vector<Vec*> vectors;
-  for (Piece* piece : equal) {
-    auto* own = static_cast<CondensedPiece*>(piece);
-    if (!own->is_moved_) {
-      own->n_spared_ += 2;
-      continue;
-    }
-    if (own->n_rows() > 0) own->work_.x.tail(own->dv_b_.size()) = own->dv_b_;
-    vectors.push_back(&own->work_.x);
-    ++own->n_solved_;
-  }
+  for (Piece* piece : equal)
+    if (Vec* const x = static_cast<CondensedPiece*>(piece)->to_substitute_backward()) vectors.push_back(x);
   if (!vectors.empty()) together(vectors, [&](auto& x) { condensation_.factor->backward(x); });
 }
 
@@ -187,7 +192,7 @@ void CondensedPiece::wake() {
   forward({&self, 1});
 }
 
-void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+const SpdInverse* CondensedPiece::to_multiply(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity, Vec& rhs) {
   const bool for_change = solves_for_change();
   const Traces& traces = op_.traces();
   const Vec* const held = held_rows();
@@ -195,25 +200,39 @@ void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec>
     const double change = (q - state_.q).cwiseAbs2().cwiseQuotient(k_).sum();
     if (change <= quiet_) {
       for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(work_.v_old);
-      return;
+      return nullptr;
     }
     wake();
   }
   const int n_i = condensation_.factor->n_interior();
-  thread_local Vec rhs;
   rhs = b_;
   for (int i = 0; i < n_rows(); ++i) {
     const Trace t = traces[i];
     const double own = held ? q[i] - k_[i] * (*held)[i] : q[i], data = for_change ? own - state_.q[i] : own;
     for (int a = 0; a < t.n; ++a) rhs[t.at[a] - n_i] += t.value[a] * data;
   }
-  h_->multiply(rhs, dv_b_);
+  return h_.get();
+}
+
+void CondensedPiece::take_product(Eigen::Ref<Vec> velocity) const {
+  const bool for_change = solves_for_change();
+  const Traces& traces = op_.traces();
+  const Vec* const held = held_rows();
+  const int n_i = condensation_.factor->n_interior();
   for (int i = 0; i < n_rows(); ++i) {
     const Trace t = traces[i];
     velocity[i] = for_change ? t.of(work_.v_old) : 0.0;
     for (int a = 0; a < t.n; ++a) velocity[i] += t.value[a] * dv_b_[t.at[a] - n_i];
     if (held) velocity[i] += (*held)[i];
   }
+}
+
+void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+  thread_local Vec rhs;
+  const SpdInverse* const h = to_multiply(q, velocity, rhs);
+  if (!h) return;
+  h->multiply(rhs, dv_b_);
+  take_product(velocity);
 }
 
 void CondensedPiece::rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const {

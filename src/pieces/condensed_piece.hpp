@@ -46,6 +46,17 @@ class CondensedPiece final : public ImplicitPiece {
   bool is_moved() const override { return is_moved_; }
   void wake() override;
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
+  // What the solves of an increment are made of, where somebody else does them for several pieces of one key or one H
+  // at once, of whichever runs. Null: nothing to solve.
+  Vec* to_substitute_forward();  // then take_forward()
+  void take_forward();
+  Vec* to_substitute_backward();
+  // rhs: of H, whose answer goes to product(); null: velocity has been found without.
+  const SpdInverse* to_multiply(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity, Vec& rhs);
+  Vec& product() { return dv_b_; }
+  void take_product(Eigen::Ref<Vec> velocity) const;
+  const Factor& factor() const { return *condensation_.factor; }
+
   bool has_rough_operator() const override { return h_ && h_->has_rough(); }
   void rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const override;
   PieceFigures figures() const override;
@@ -57,8 +68,6 @@ class CondensedPiece final : public ImplicitPiece {
   bool solves_for_change() const override { return !op_.scheme().is_static && !op_.mass().has_massless(); }
 
  private:
-  void take_forward();
-
   Condensation condensation_;
   const CondensedPiece* twin_;
   std::shared_ptr<const SpdInverse> h_;

@@ -64,15 +64,21 @@ const StepOperators* SharedOperators::of_step(size_t i_step) const {
   return i_step < steps_.size() && !steps_[i_step].pieces.empty() ? &steps_[i_step] : nullptr;
 }
 
+bool SharedOperators::have_all() const {
+  return are_made() && std::all_of(steps_.begin(), steps_.end(),
+                                   [](const StepOperators& step) { return step.is_assembled || !step.pieces.empty(); });
+}
+
 bool leave_room(double kept, double available) { return available == 0.0 || 2.0 * kept <= available; }
 
 void SharedOperators::keep(size_t i_step, StepModel& model) {
+  steps_[i_step].is_assembled = model.is_assembled;
   if (model.is_assembled || of_step(i_step)) return;
   double bytes = 0.0, all = 0.0;
   for (const auto& piece : model.pieces) bytes += piece->figures().bytes;
   for (const StepOperators& step : steps_) all += step.bytes;
   if (!leave_room(ranks::count_on_machine() * (all + bytes), available_memory())) return;
-  steps_[i_step] = {std::move(model.pieces), model.integration, law_springs(model), bytes};
+  steps_[i_step] = {std::move(model.pieces), model.integration, law_springs(model), bytes, false};
 }
 
 // The Schur complement that search directions were added to is gone, so they must be the same too; they follow from

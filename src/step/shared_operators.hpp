@@ -22,6 +22,7 @@ struct StepOperators {
   Integration integration;
   std::vector<Vec3> springs;
   double bytes = 0.0;
+  bool is_assembled = false;  // in one system, which is not kept
 };
 
 class SharedOperators {
@@ -36,6 +37,8 @@ class SharedOperators {
   const std::vector<Body>& bodies() const { return bodies_; }
   // Null: there is nothing to take over.
   const StepOperators* of_step(size_t i_step) const;
+  // Has the first run left all that others need: pieces of every step, but for those that each makes and gives up?
+  bool have_all() const;
   // Takes the pieces of a step that has come to its end, unless it has some, they are solved in one system or there is
   // no room for them beside those of the steps to come.
   void keep(size_t i_step, StepModel& model);

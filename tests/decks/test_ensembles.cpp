@@ -140,6 +140,73 @@ TEST(Ensemble, each_explicit_member_is_what_it_is_alone) {
   expect_members_alone(printed_by(blocks, {{"explicit", "1"}}));
 }
 
+// The same members twice: side by side, and with files of their own and therefore one after the other.
+const std::string both_ways = R"(
+local p = param{ explicit = 0, window = 0, most = 0, n = 7 }
+local metal = material.elastic{ name = "metal", young = 70*GPa, poisson = 0.3, density = 2700 }
+local function block(name, z) return substructure{ name = name, material = metal,
+  mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 6, 6, 3 }, origin = { 0, 0, z } } } end
+local low, up = block("low", 0), block("up", 10*mm)
+local j
+local function joint(v)
+  local c = interface.contact{ name = "c", between = { low:face "zmax", up:face "zmin" }, friction = v.mu }
+  local clamp = load.pressure{ on = up:face "zmax", history = v.clamp }
+  local press = step.static{ name = "press", loads = { clamp } }
+  local shake = step.dynamic{ name = "shake", after = press, duration = 60*us, dt = 1*us,
+    loads = { clamp, load.traction{ on = up:face "zmax", x = history.half_sine{ peak = 0.4*v.clamp, duration = 40*us } } } }
+  j = output.joint{ name = "j", on = c }
+  return problem{ name = "blocks", substructures = { low, up }, interfaces = { c }, supports = { support.fixed{ name = "base", on = low:face "zmin" } },
+    steps = { press, shake }, outputs = { j, output.energy{} },
+    solver = solver.latin{ tolerance = 1e-7, static_tolerance = 1e-9, integration = p.explicit == 1 and "explicit" or "implicit",
+      window = p.window > 0 and p.window or nil, max_iterations = p.most > 0 and p.most or nil } }
+end
+local function members(case, by_themselves)
+  local js = {}
+  local r = ensemble{ n = p.n, seed = 2, vary = { mu = uniform(0.1, 0.4), clamp = normal(20, 4)*MPa },
+    of = function(v) local own = joint(v); js[#js + 1] = j; return own end }:run{ case = case, members = by_themselves }
+  return r, js
+end
+local together, js = members "together"
+local alone, ja = members("alone", true)
+local worst = 0
+for i = 1, #alone do
+  if alone[i].converged ~= together[i].converged then print "one converges, the other does not: 1" end
+  for _, column in ipairs{ "normal", "shear", "slip", "friction_work" } do
+    local a, b, size = together[i][js[i]][column], alone[i][ja[i]][column], 0
+    for row = 1, #b do size = math.max(size, math.abs(b[row])) end
+    for row = 1, #b do worst = math.max(worst, math.abs(a[row] - b[row]) / size) end
+  end
+end
+local n = 0
+for i = 1, #alone do n = n + (alone[i].converged and 1 or 0) end
+print(("worst: %.3g"):format(worst))
+print(("worst, with converged: %d"):format(n))
+)";
+
+double compare_ways(const Settings& settings, double converged = 7.0) {
+  const Printed printed = printed_by(both_ways, settings);
+  EXPECT_EQ(printed.text.find("one converges"), std::string::npos);
+  EXPECT_EQ(printed["worst, with converged"], converged);
+  return printed["worst"];
+}
+
+// To the tolerance, and not to the bits: sums of products are taken in another order.
+TEST(Ensemble, members_side_by_side_are_what_they_are_one_after_the_other) {
+  const double worst = compare_ways({});
+  EXPECT_LT(worst, 1e-5);
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST(Ensemble, members_side_by_side_go_through_windows) { EXPECT_LT(compare_ways({{"window", "4"}}), 1e-5); }
+
+TEST(Ensemble, explicit_members_side_by_side_are_what_they_are_one_after_the_other) {
+  EXPECT_LT(compare_ways({{"explicit", "1"}}), 1e-5);
+}
+
+TEST(Ensemble, more_members_than_are_solved_together_are_what_they_are_one_after_the_other) {
+  EXPECT_LT(compare_ways({{"n", "19"}}, 19.0), 1e-5);
+}
+
 TEST(Ensemble, draws_for_each_item_of_a_list_and_of_lists_and_corners) {
   const std::string start = R"(
 local cube = substructure{ name = "cube", material = material.elastic{ name = "m", young = 200*GPa, poisson = 0, density = 7800 },
