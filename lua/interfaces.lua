@@ -136,7 +136,12 @@ local function declare_all(entry, given, line)
   for _, pair in ipairs(native.touching(among, declared, given.within or 0, line)) do
     local one, other = among[pair[1]], among[pair[2]]
     local is_asked, is_other_way = asked(one, other)
-    if is_other_way then one, other, pair.face_1, pair.face_2 = other, one, pair.face_2, pair.face_1 end
+    -- A contact whose gap the deck leaves to the geometry takes a round face on a plane as far as a load may close it.
+    local is_contact, has_no_gap = entry.path == "interface.contact", not given.closed and (given.gap or 0) == 0
+    local is_wide = is_contact and has_no_gap and pair.beside_the_line ~= nil
+    local faces = is_wide and pair.beside_the_line or pair
+    local face_1, face_2 = faces.face_1, faces.face_2
+    if is_other_way then one, other, face_1, face_2 = other, one, face_2, face_1 end
     joined[one], joined[other] = true, true
     local name = name_of(one) .. "/" .. name_of(other)
     if not is_asked then
@@ -147,14 +152,14 @@ local function declare_all(entry, given, line)
       local copy = {}
       for key, value in pairs(given) do copy[key] = value end
       copy.name = (given.name and given.name .. " " or "") .. name
-      copy.between, copy.within = { pair.face_1, pair.face_2 }, pair.within
+      copy.between, copy.within = { face_1, face_2 }, faces.within
       copy.of, copy.except = nil, nil
       list[#list + 1] = native.make(entry.path, "interface", copy, line)
-      lines[#lines + 1] = ("  '%s': %s"):format(copy.name, pair.text)
-      local is_told_there = pair.is_known and entry.path == "interface.contact"
-      if pair.doubt ~= "" and not is_told_there and not given.closed and (given.gap or 0) == 0 then
+      lines[#lines + 1] = ("  '%s': %s"):format(copy.name, faces.text)
+      local is_told_there = is_wide or pair.is_known and is_contact
+      if pair.doubt ~= "" and not is_told_there and has_no_gap then
         native.warn(line, ("%s: '%s' and '%s' %s; %s"):format(entry.path, name_of(one), name_of(other), pair.doubt,
-          entry.path == "interface.contact" and "gap = \"geometry\" keeps the actual gap, closed = true confirms contact"
+          is_contact and "gap = \"geometry\" keeps the actual gap, closed = true confirms contact"
           or "move them together by 'place' or 'origin'"), "gap", pair.largest,
           ("'%s' and '%s' (%.2g mm)"):format(name_of(one), name_of(other), 1e3 * pair.largest))
       end

@@ -94,7 +94,9 @@ void set_sides(const Declaration& d, Interface& interface) {
     if (own->face && is_of_points(*own->face))
       throw InputError(fmt::format("'{}' is given by points alone: give the face of '{}' that lies on them",
                                    own->label(), opposite->label()));
-  const FoundFaces found = find_faces(one, other, interface.within);
+  FoundFaces found = find_faces(one, other, interface.within);
+  if (!interface.within && d.arguments.has("gap") && !has_gap_of_its_own(d))
+    if (std::optional<FoundFaces> wide = beside_the_line(found)) found = std::move(*wide);
   interface.side_1 = found.side_1;
   interface.side_2 = found.side_2;
   interface.within = found.touching.within;

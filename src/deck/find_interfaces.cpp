@@ -1,5 +1,7 @@
 #include "deck/find_interfaces.hpp"
 
+#include <algorithm>
+
 #include "base/log.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/object.hpp"
@@ -30,6 +32,18 @@ void push_face(lua_State* L, const Face& face, int parts, int i) {
   push_object(L, {"face", "substructure:face", face.label(), id, face});
 }
 
+// Faces, distance and text of a pair into the table on top; 1: the list of parts.
+void push_found(lua_State* L, const TouchingPair& pair, const FoundFaces& found) {
+  push_face(L, found.side_1, 1, pair.part_1);
+  lua_setfield(L, -2, "face_1");
+  push_face(L, found.side_2, 1, pair.part_2);
+  lua_setfield(L, -2, "face_2");
+  lua_pushnumber(L, found.touching.within);
+  lua_setfield(L, -2, "within");
+  lua_pushstring(L, describe(found.touching).c_str());
+  lua_setfield(L, -2, "text");
+}
+
 void push_point(lua_State* L, const Vec3& x) {
   lua_createtable(L, 3, 0);
   for (int d = 0; d < 3; ++d) {
@@ -46,11 +60,19 @@ int touching_pairs(LuaState& lua, lua_State* L) {
   const double within = lua_tonumber(L, 3);
   std::vector<TouchingPair> pairs;
   std::vector<GapDoubt> doubts;
+  std::vector<std::optional<FoundFaces>> wide;
   {
     const LuaState::Pause pause(lua);
     pairs = all_touching(parts, interfaces, within > 0.0 ? std::optional(within) : std::nullopt);
-    for (const auto& [part_1, part_2, found] : pairs)
+    for (const auto& [part_1, part_2, found] : pairs) {
       doubts.push_back(doubt_of_gap(found.side_1, found.side_2, found.touching.within));
+      const SubstructurePtr &one = parts[static_cast<size_t>(part_1)], &other = parts[static_cast<size_t>(part_2)];
+      const bool is_first = std::none_of(interfaces.begin(), interfaces.end(), [&](const InterfacePtr& known) {
+        return (known->side_1.part == one && known->side_2.part == other) ||
+               (known->side_1.part == other && known->side_2.part == one);
+      });
+      wide.push_back(within > 0.0 || !is_first ? std::nullopt : beside_the_line(found));
+    }
   }
   lua_createtable(L, static_cast<int>(pairs.size()), 0);
   for (size_t p = 0; p < pairs.size(); ++p) {
@@ -60,14 +82,12 @@ int touching_pairs(LuaState& lua, lua_State* L) {
     lua_rawseti(L, -2, 1);
     lua_pushinteger(L, pair.part_2 + 1);
     lua_rawseti(L, -2, 2);
-    push_face(L, pair.found.side_1, 1, pair.part_1);
-    lua_setfield(L, -2, "face_1");
-    push_face(L, pair.found.side_2, 1, pair.part_2);
-    lua_setfield(L, -2, "face_2");
-    lua_pushnumber(L, pair.found.touching.within);
-    lua_setfield(L, -2, "within");
-    lua_pushstring(L, describe(pair.found.touching).c_str());
-    lua_setfield(L, -2, "text");
+    push_found(L, pair, pair.found);
+    if (wide[p]) {
+      lua_createtable(L, 0, 4);
+      push_found(L, pair, *wide[p]);
+      lua_setfield(L, -2, "beside_the_line");
+    }
     // What facets can hide is told of the interface itself, as that of faces which a deck names.
     const GapDoubt& doubt = doubts[p];
     lua_pushstring(L, doubt.is_hidden ? "" : doubt.neglected().c_str());

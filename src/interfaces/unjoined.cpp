@@ -27,11 +27,32 @@ constexpr double reach = 0.05, longest_flight = 0.5;  // of the smaller part's s
 
 std::string at(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
 
+double area_of(const Substructure& part, const std::vector<Facet>& facets) {
+  double area = 0.0;
+  for (const Facet& facet : facets) area += facet_area_vector(part.mesh->nodes, facet).norm();
+  return area;
+}
+
 void join(PlacedBody& body, const std::vector<Facet>& facets) {
   for (const Facet& facet : facets) {
     body.joined.insert(facet_key(facet));
     body.joined_nodes.insert(facet.nodes().begin(), facet.nodes().end());
   }
+}
+
+// Where an interface takes all of its facets on one side, and more than what they cover on the other, the rest of those
+// is free for what else lies there.
+void join_both(const Substructure& part_1, PlacedBody& body_1, const Substructure& part_2, PlacedBody& body_2,
+               const Facing& facing) {
+  constexpr double whole = 0.98;
+  join(body_1, facing.facets_1);
+  join(body_2, facing.facets_2);
+  const double area = facing.areas.sum();
+  const bool is_whole_1 = area > whole * area_of(part_1, facing.facets_1),
+             is_whole_2 = area > whole * area_of(part_2, facing.facets_2);
+  if (is_whole_1 == is_whole_2) return;
+  for (const Facet& facet : is_whole_1 ? facing.facets_2 : facing.facets_1)
+    (is_whole_1 ? body_2 : body_1).reused.insert(facet_key(facet));
 }
 
 PlacedBody body_of(const Problem& problem, int part) {
@@ -46,12 +67,6 @@ double flight_of(const Problem& problem, int part_1, int part_2) {
     if (!step->is_static) duration += step->duration;
   const auto velocity = [&](int part) { return problem.substructures[static_cast<size_t>(part)]->velocity; };
   return duration * (velocity(part_1) - velocity(part_2)).norm();
-}
-
-double area_of(const Substructure& part, const std::vector<Facet>& facets) {
-  double area = 0.0;
-  for (const Facet& facet : facets) area += facet_area_vector(part.mesh->nodes, facet).norm();
-  return area;
 }
 
 Box box_of(const Substructure& part, const std::vector<Facet>& facets) {
@@ -235,13 +250,10 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j &&
           surface.interface && surface.interface->has_gap_of_geometry && surface.n_points() > 0)
         interference = std::max(interference, -surface.facing.gaps.minCoeff());
-      if (surface.part_1 == i && surface.part_2 == j) {
-        join(body_1, surface.facing.facets_1);
-        join(body_2, surface.facing.facets_2);
-      } else if (surface.part_1 == j && surface.part_2 == i) {
-        join(body_2, surface.facing.facets_1);
-        join(body_1, surface.facing.facets_2);
-      }
+      const Substructure &one = *problem.substructures[static_cast<size_t>(i)],
+                         &other = *problem.substructures[static_cast<size_t>(j)];
+      if (surface.part_1 == i && surface.part_2 == j) join_both(one, body_1, other, body_2, surface.facing);
+      if (surface.part_1 == j && surface.part_2 == i) join_both(other, body_2, one, body_1, surface.facing);
     }
     pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
     if (pair.neighbours.intrusion && pair.neighbours.intrusion->depth <= 1.5 * interference)

@@ -94,6 +94,7 @@ struct SurfaceInBox {
   }
 
   bool is_joined(size_t i) const { return body.joined.contains(facet_key(facets[i])); }
+  bool is_used_up(size_t i) const { return is_joined(i) && !body.reused.contains(facet_key(facets[i])); }
   double mean_size() const {
     double sum = 0.0;
     for (const double size : sizes) sum += size;
@@ -138,7 +139,7 @@ bool touch_as_round(const SurfaceInBox& a, const SurfaceInBox& b) {
   const auto face_of = [](const SurfaceInBox& surface) {
     PlacedFace face{surface.body.mesh, {}, surface.body.place, ""};
     for (size_t i = 0; i < surface.facets.size(); ++i)
-      if (!surface.is_joined(i)) face.facets.push_back(surface.facets[i]);
+      if (!surface.is_used_up(i)) face.facets.push_back(surface.facets[i]);
     return face;
   };
   const TrueGaps gaps = true_gaps(face_of(a), face_of(b), of_size * std::min(a.mean_size(), b.mean_size()));
@@ -151,7 +152,7 @@ std::optional<Touch> find_touch(const SurfaceInBox& a, const SurfaceInBox& b) {
   for (int side = 0; side < 2; ++side) {
     const SurfaceInBox& surface = side == 0 ? a : b;
     for (size_t i = 0; i < surface.facets.size(); ++i) {
-      if (surface.is_joined(i)) continue;
+      if (surface.is_used_up(i)) continue;
       polygons[side].push_back(surface.polygon(surface.facets[i]));
       index[side].push_back(i);
     }

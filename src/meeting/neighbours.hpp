@@ -11,10 +11,11 @@
 namespace dygita {
 
 // A body in space. `joined`: facets that meet the other body in an interface, and their nodes: no longer asked for.
+// `reused`: those of them on whose rest another part of the other body may still lie.
 struct PlacedBody {
   const Mesh* mesh;
   Vec3 place;
-  FacetKeys joined = {};
+  FacetKeys joined = {}, reused = {};
   std::unordered_set<int> joined_nodes = {};
 
   Vec3 at(int node) const { return mesh->nodes.col(node) + place; }

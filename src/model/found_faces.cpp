@@ -35,6 +35,20 @@ FoundFaces found_between(const InterfaceSide& one, const InterfaceSide& other, T
   return found;
 }
 
+// Of a part, the smooth surfaces that have these facets.
+Outside surfaces_with(const SubstructurePtr& part, const std::vector<Facet>& facets) {
+  const Outside all = outside_of({part, {}});
+  FacetKeys keys;
+  for (const Facet& facet : facets) keys.insert(facet_key(facet));
+  std::vector<char> is_of(all.facets.size(), 0);  // by the number of the surface
+  for (size_t f = 0; f < all.facets.size(); ++f)
+    if (keys.contains(facet_key(all.facets[f]))) is_of[static_cast<size_t>(all.patch[f])] = 1;
+  std::vector<Facet> own;
+  for (size_t f = 0; f < all.facets.size(); ++f)
+    if (is_of[static_cast<size_t>(all.patch[f])]) own.push_back(all.facets[f]);
+  return {*part->mesh, part->place, std::move(own)};
+}
+
 // Why two sides of an interface do not touch.
 [[noreturn]] void refuse(const InterfaceSide& one, const InterfaceSide& other, const Outside& outside_1,
                          const Outside& outside_2, double within) {
@@ -78,6 +92,20 @@ FoundFaces find_faces(const InterfaceSide& one, const InterfaceSide& other, std:
   Touching touching = find_touching(outside_1, outside_2, within);
   if (touching.is_empty()) refuse(one, other, outside_1, outside_2, touching.within);
   return found_between(one, other, std::move(touching));
+}
+
+std::optional<FoundFaces> beside_the_line(const FoundFaces& found) {
+  const Touching& touching = found.touching;
+  if (touching.n_surfaces != 1 || touching.bend < 0.01 * touching.within) return {};
+  const SubstructurePtr &part_1 = found.side_1.part, &part_2 = found.side_2.part;
+  if (!part_1->mesh->has_cells() || !part_2->mesh->has_cells()) return {};
+  const Outside one = surfaces_with(part_1, touching.facets_1), other = surfaces_with(part_2, touching.facets_2);
+  const RoundFace round_1({one.mesh, one.facets, one.place, ""}), round_2({other.mesh, other.facets, other.place, ""});
+  const double reach = round_1.reach_on_flat(round_2);
+  if (reach <= touching.within) return {};
+  Touching wide = find_touching(one, other, reach);
+  if (wide.is_empty()) return {};
+  return found_between({part_1, {}}, {part_2, {}}, std::move(wide));
 }
 
 std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts,

@@ -22,6 +22,11 @@ struct FoundFaces {
   Touching touching;
 };
 
+// Where a round face lies on a plane, those of both within the distance (m, `touching.within`) in which a load may
+// bring them together; none where nothing lies on a line or at a point. For contact, of which the deck gives no
+// distance.
+std::optional<FoundFaces> beside_the_line(const FoundFaces& found);
+
 // Those of both sides that touch, within a distance (m) or a hundredth of the facets. Throws InputError where they
 // nowhere do: how far they are apart and where, or that they overlap.
 FoundFaces find_faces(const InterfaceSide& one, const InterfaceSide& other, std::optional<double> within);

@@ -229,6 +229,10 @@ problem{ name = "punch", substructures = { punch, block }, interfaces = { seat }
       std::cout << "  " << n << " facets, order " << order << ": " << 1e9 * found << " nm\n";
       EXPECT_NEAR(found, right, off * right) << n << " facets between " << between;
     }
+  // Found, with parts named or all that touch, it is the same contact.
+  for (const char* between : {"{ punch, block }", "{ block, punch }", "{ punch, block:face 'zmax' }", "'all touching'"})
+    for (const char* n : {"12", "24", "25"})
+      EXPECT_NEAR(sinks(n, "1", between), sinks(n, "1", one.c_str()), 0.001 * right) << n << " facets " << between;
 }
 
 TEST(GapOfRoundSurfaces, is_no_interference_where_the_first_step_is_dynamic) {

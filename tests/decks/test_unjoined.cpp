@@ -77,6 +77,23 @@ TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
   EXPECT_NE(through[0].find("in step 'fall' at 0.1 ms: an interface.contact would prevent this"), std::string::npos);
 }
 
+// Half of the block's foot is bonded: facets of the plate reach beyond what is.
+TEST(Unjoined, what_a_bond_leaves_of_a_foot_is_named_as_it_is) {
+  const auto said = [](const std::string& x) {
+    return said_of_check(
+        blocks_at(
+            "{ " + x + "*mm, 10*mm, 10*mm }",
+            "interfaces = { interface.bonded{ name = 'foot', between = { plate:face 'zmax', block:face{ low = { " + x +
+                "*mm - 0.01*mm, 9.9*mm, 9.9*mm }, high = { " + x + "*mm + 10.01*mm, 30.1*mm, 10.1*mm } } } } }"),
+        "touch on");
+  };
+  for (const char* x : {"10", "11", "13.5"}) {
+    const std::vector<std::string> touch = said(x);
+    ASSERT_EQ(touch.size(), 1u) << x;
+    EXPECT_NE(touch[0].find("touch on 200 mm^2 without an interface"), std::string::npos) << touch[0];
+  }
+}
+
 // 40 m/s for 100 us, across more than a twentieth of the block's size.
 TEST(Unjoined, parts_that_fly_into_each_other_from_afar_are_named) {
   std::string text = blocks_at("{ 10*mm, 10*mm, 12.4*mm }", "");
