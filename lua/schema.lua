@@ -383,7 +383,7 @@ words[3][1] = {
 
 words[3][2] = {
   "rigid", makes = "substructure",
-  doc = "A rigid body, such as an equipment box on its feet: a mass and its inertia attached to faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name); "
+  doc = "A rigid body, such as an equipment box on its feet: a mass and its inertia attached to faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name), those picked by geometry also \"face 1\", \"face 2\" ... by their place there; "
     .. "an interface joins each to the face that it lies on: `interface.bonded{ name = \"feet\", between = { panel:face \"feet\", box:face \"feet\" } }`.",
   arguments = {
     name_of "part",

@@ -130,6 +130,19 @@ Mat3 inertia_in(const LuaArguments& a) {
   return inertia;
 }
 
+// Faces that were picked by geometry are called by what they were picked by, and by their place in `on`: "face 2".
+MeshPtr with_short_names(const MeshPtr& body, const std::vector<Face>& faces) {
+  auto mesh = std::make_shared<Mesh>(*body);
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const auto own = mesh->faces.find(faces[i].group), labelled = mesh->faces.find(faces[i].label());
+    const auto it = own != mesh->faces.end() ? own : labelled;
+    if (!faces[i].picked || it == mesh->faces.end()) continue;
+    const std::vector<Facet> facets = it->second;
+    mesh->faces.emplace(fmt::format("face {}", i + 1), facets);
+  }
+  return mesh;
+}
+
 RigidBody::Side side_on(const Face& face, const std::string& name) {
   RigidBody::Side side{name, face.facets(), {}};
   const std::vector<int> nodes = nodes_of(side.facets);
@@ -158,7 +171,7 @@ Content build_rigid(const Declaration& d) {
     body.sides.push_back(side_on(face, is_alone ? face.group : face.label()));
     young = std::max(young, face.part->material.young());
   }
-  part->mesh = rigid_body(body);
+  part->mesh = with_short_names(rigid_body(body), faces);
   part->material = material_like(young, "rigid");
   part->velocity = a.vector("velocity");
   return SubstructurePtr(part);

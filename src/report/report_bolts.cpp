@@ -143,7 +143,11 @@ std::string margins_text(const Json& bolts) {
         "force, "
         "with the factor of safety on what loads added to the preload.";
   if (has("margin_slip"))
-    text += " Slip: the friction that the clamped contact around the bolt could carry over its shear, least in time.";
+    text +=
+        " Slip: the friction that the clamped contact around the bolt could carry over its shear, least in time. A "
+        "joint that "
+        "slides carries no more shear than its friction: its margin is then 1 over the factor of safety less 1, or "
+        "less.";
   if (has("margin_separation"))
     text +=
         " Separation: of the load that would part the contact around the bolt over the largest that it saw, in "

@@ -62,6 +62,21 @@ std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) 
   return list;
 }
 
+void warn_of_uncut(const Problem& problem, const std::vector<int>& pieces) {
+  std::vector<std::string> fewer;
+  for (size_t i = 0; i < pieces.size(); ++i)
+    if (problem.substructures[i]->mesh->has_cells() && pieces[i] < problem.solver.pieces)
+      fewer.push_back(fmt::format("'{}' in {}", problem.substructures[i]->name, pieces[i]));
+  if (fewer.empty() || problem.monolithic || problem.explicit_dynamics) return;
+  constexpr size_t most_told = 5;
+  std::string list;
+  for (size_t i = 0; i < std::min(most_told, fewer.size()); ++i) list += (i > 0 ? ", " : "") + fewer[i];
+  if (fewer.size() > most_told) list += fmt::format(" and {} more", fewer.size() - most_told);
+  warn(fmt::format("solver.latin{{ pieces = {} }} leaves {}: {}", problem.solver.pieces, list,
+                   problem.mass().is_moved_from_contact ? "mass that moves from contact nodes does not cross a cut"
+                                                        : "a piece has 8 cells or more"));
+}
+
 std::string mass_line(const Problem& problem) {
   double mass = 0.0;
   const std::vector<double> volume = volumes(problem);

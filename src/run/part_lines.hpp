@@ -13,6 +13,8 @@ namespace dygita {
 std::string part_line(const Substructure& part);
 // "'flange' 4, 'plate' 16": the substructures that are cut; pieces: of each.
 std::string list_pieces(const Problem& problem, const std::vector<int>& pieces);
+// Warns of substructures that have fewer than the deck asks for.
+void warn_of_uncut(const Problem& problem, const std::vector<int>& pieces);
 // "  1.23 kg in all\n".
 std::string mass_line(const Problem& problem);
 

@@ -100,6 +100,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
                  double seconds) {
   if (const std::string pieces = list_pieces(problem, result.pieces); !pieces.empty())
     say("  cut into pieces: " + pieces);
+  warn_of_uncut(problem, result.pieces);
   for (const StepSummary& step : result.steps) {
     std::string line =
         fmt::format("  {} '{}': {} increment{}, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",

@@ -8,6 +8,8 @@
 #include "base/log.hpp"
 #include "base/warnings.hpp"
 #include "law/law.hpp"
+#include "model/load.hpp"
+#include "model/tightening.hpp"
 #include "partition/stored_precision.hpp"
 #include "result/limits.hpp"
 
@@ -231,8 +233,28 @@ void warn_of_overtightened(const Problem& problem, const BoltSummary& bolt) {
                            : fmt::format("no bolt bears more than {:.4g} MPa", limit::bolt_stress / 1e6)));
 }
 
-void warn_of_margins(const BoltSummary& bolt) {
+// Does a contact that a bolt clamps use all of its friction?
+bool slides_under(const Problem& problem, const RunResult& result, const std::string& bolt) {
+  constexpr double all = 0.99;
+  const auto slides = [&](const InterfacePtr& contact) {
+    for (const ContactSummary& told : result.contacts)
+      for (const ContactStep& step : told.steps)
+        if (told.name == contact->name && step.friction_used.value_or(0.0) > all) return true;
+    return false;
+  };
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Effect& effect : load->effects())
+        if (const Tightening* by = tightening(effect);
+            by && by->rating && by->on->name == bolt &&
+            std::any_of(by->rating->joint.begin(), by->rating->joint.end(), slides))
+          return true;
+  return false;
+}
+
+void warn_of_margins(const Problem& problem, const RunResult& result, const BoltSummary& bolt) {
   if (!bolt.margins) return;
+  const bool slides = slides_under(problem, result, bolt.name);
   constexpr double used_up = 1e-3;  // friction and contact carry no more than that
   std::string negative;
   double least = 0.0;
@@ -240,7 +262,10 @@ void warn_of_margins(const BoltSummary& bolt) {
                                         {"slip", bolt.margins->slip},
                                         {"separation", bolt.margins->against_separation()}})
     if (margin && *margin < used_up) {
-      negative += fmt::format("{}{} {:.2f}", negative.empty() ? "" : ", ", against, *margin);
+      const bool is_bounded = against == std::string("slip") && slides;
+      negative +=
+          fmt::format("{}{} {:.2f}{}", negative.empty() ? "" : ", ", against, *margin,
+                      is_bounded ? " or less (the joint slides: it carries no more shear than its friction)" : "");
       least = std::min(least, *margin);
     }
   if (!negative.empty())
@@ -252,7 +277,7 @@ void warn_of_margins(const BoltSummary& bolt) {
 void warn_of_bolts(const Problem& problem, const RunResult& result) {
   for (const BoltSummary& bolt : result.bolts) {
     warn_of_overtightened(problem, bolt);
-    warn_of_margins(bolt);
+    warn_of_margins(problem, result, bolt);
   }
   for (const BoltSummary& bolt : result.bolts)
     if (std::abs(bolt.shortening) > limit::bolt_shortening)

@@ -78,7 +78,20 @@ TEST(BoltMargins, that_are_negative_are_told) {
   run_text(lid("proof_load = 10.5*kN, joint = seat, safety = 1.25",
                "load.force{ on = lid:face 'block.zmax', z = 10*kN, y = 4*kN }"));
   const std::string told = testing::internal::GetCapturedStderr();
-  EXPECT_NE(told.find("' has negative margins: proof -0.15, slip -0.26"), std::string::npos) << told;
+  EXPECT_NE(told.find("' has negative margins: proof -0.15, slip -0.26\n"), std::string::npos) << told;
+}
+
+// What slides carries no more shear than its friction, however much is asked: the margin is that or less.
+TEST(BoltMargins, of_a_joint_that_slides_are_told_as_a_bound) {
+  for (const char* push : {"8", "16"}) {
+    testing::internal::CaptureStderr();
+    run_text(lid("proof_load = 15*kN, joint = seat, safety = 1.25",
+                 "load.force{ on = lid:face 'block.zmax', y = " + std::string(push) + "*kN }"));
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_NE(told.find("slip -0.20 or less (the joint slides: it carries no more shear than its friction)"),
+              std::string::npos)
+        << told;
+  }
 }
 
 // Half of each bolt in a model of half of it.

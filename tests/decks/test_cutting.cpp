@@ -67,6 +67,23 @@ TEST(Cutting, a_cut_and_bonded_body_is_the_uncut_one) {
   }
 }
 
+TEST(Cutting, tells_parts_that_are_too_small_for_the_pieces_asked_for) {
+  testing::internal::CaptureStderr();
+  const DeckRun run = run_text(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function bar(name, z, n) return substructure{ name = name, material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 40*mm }, cells = { 2, 2, n }, origin = { 0, 0, z } } } end
+local long, short = bar("long", 0, 8), bar("short", 40*mm, 4)
+local tie = interface.bonded{ name = "tie", between = { long:face "zmax", short:face "zmin" } }
+problem{ name = "bars", solver = solver.latin{ integration = "implicit", pieces = 4 }, substructures = { long, short }, interfaces = { tie },
+  steps = { step.dynamic{ name = "rest", duration = 2*us, dt = 1*us, loads = { load.pressure{ on = short:face "zmax", history = 1*MPa } } } } }:run{}
+)")
+                          .at(0);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("solver.latin{ pieces = 4 } leaves 'short' in 2: a piece has 8 cells or more"), std::string::npos)
+      << told;
+  EXPECT_EQ(told.find("'long' in"), std::string::npos) << told;
+}
+
 TEST(Cutting, pieces_across_a_contact_plane_give_the_same_contact) {
   const DeckRun slabs = block({{"nz", "2"}, {"contact", "1"}});
   const DeckRun pieces = block({{"nx", "2"}, {"ny", "3"}, {"nz", "2"}, {"contact", "1"}});

@@ -58,6 +58,28 @@ TEST(SuperelementFaces, of_one_node_give_one_model_whatever_the_motion) {
   EXPECT_GT(rigid.frequencies[5], 100.0);
 }
 
+// A rigid body on faces that were picked by geometry: each has a name that can be typed.
+TEST(SuperelementFaces, of_a_rigid_body_that_were_picked_have_a_short_name_too) {
+  const auto sinks = [](const std::string& face) {
+    return run_text(R"(
+local m = material.elastic{ name = "m", young = 70*GPa, poisson = 0.3, density = 2700 }
+local a = substructure{ name = "a", material = m, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 2, 2, 4 } } }
+local b = substructure{ name = "b", material = m, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 2, 2, 4 }, origin = { 40*mm, 0, 0 } } }
+local top = b:face{ normal = { 0, 0, 1 } }
+local box = substructure.rigid{ name = "box", on = { a:face "zmax", top }, mass = 1, inertia = { 1e-3, 1e-3, 1e-3 }, at = { 30*mm, 10*mm, 50*mm } }
+local feet = { interface.bonded{ name = "1", between = { a:face "zmax", box:face "zmax" } }, interface.bonded{ name = "2", between = { top, box:face ")" +
+                    face + R"(" } } }
+problem{ name = "box", substructures = { a, b, box }, interfaces = feet, supports = { support.fixed{ name = "held", on = { a:face "zmin", b:face "zmin" } } },
+  steps = { step.static{ name = "weigh", loads = { load.gravity{ z = -9.81 } } } }, outputs = { output.history{ name = "top", on = top, quantity = "displacement" } } }:run{}
+)")
+        .at(0)
+        .column("top", "z")
+        .back();
+  };
+  EXPECT_LT(sinks("face 2"), 0.0);
+  EXPECT_EQ(sinks("face 2"), sinks("(normal 0 0 1)"));
+}
+
 // Two bars on each other, free in space: as springs hold points between faces that do not match, a rounding of them
 // must not be stiffness.
 TEST(SuperelementFaces, of_free_bodies_have_six_motions_at_zero) {
