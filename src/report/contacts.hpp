@@ -17,8 +17,9 @@ struct Contact {
   double shear, closed, opening;        // closed: smallest share of the area
   double sliding, slip, friction_used;  // sliding: largest share of what is closed
 
-  bool slides() const { return sliding > 0.999 && highest > 0.0; }  // all that touches
-  bool parts() const { return closed == 0.0 && highest > 0.0; }     // nothing touches any more, at an instant
+  // All that touches, and one way: what spreads under a bolt's head slips everywhere, and carries next to nothing.
+  bool slides() const { return sliding > 0.999 && highest > 0.0 && friction_used > 0.5; }
+  bool parts() const { return closed == 0.0 && highest > 0.0; }  // nothing touches any more, at an instant
   bool has_changed() const { return slides() || parts(); }
 };
 

@@ -168,6 +168,17 @@ std::vector<std::string> names_where(const std::vector<Contact>& contacts, Which
   return names;
 }
 
+// Of what does not slide, the nearest to it.
+std::string most_friction_used(const std::vector<Contact>& contacts) {
+  const Contact* nearest = nullptr;
+  for (const Contact& c : contacts)
+    if (!c.slides() && std::isfinite(c.friction_used) && (!nearest || c.friction_used > nearest->friction_used))
+      nearest = &c;
+  return nearest ? fmt::format("at most {:.0f}\u00a0% of the friction is used, in '{}'", 100.0 * nearest->friction_used,
+                               nearest->name)
+                 : "";
+}
+
 Finding of_contacts(const Json& record) {
   std::vector<Contact> contacts = contacts_of(record);
   std::erase_if(contacts, [](const Contact& c) { return !(c.highest > 0.0); });  // what never touches
@@ -175,25 +186,30 @@ Finding of_contacts(const Json& record) {
   const auto sliding = names_where(contacts, [](const Contact& c) { return c.slides(); });
   const auto parted = names_where(contacts, [](const Contact& c) { return c.parts(); });
   Finding finding;
-  Card card{"contacts that slide as a whole", fmt::format("{} of {}", sliding.size(), contacts.size()), ""};
-  const Contact* nearest = nullptr;
+  const auto n_free = static_cast<size_t>(
+      std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.friction == 0.0; }));
+  const size_t n_rough = contacts.size() - n_free;
+  const std::string free =
+      n_free == 0 ? "" : fmt::format("{} without friction slide{} freely", n_free, n_free == 1 ? "s" : "");
+  Card card{"contacts that slide as a whole",
+            n_rough > 0 ? fmt::format("{} of {}", sliding.size(), n_rough) : "no friction", ""};
   double slip = 0.0;
-  for (const Contact& c : contacts) {
-    if (!c.slides() && std::isfinite(c.friction_used) && (!nearest || c.friction_used > nearest->friction_used))
-      nearest = &c;
+  for (const Contact& c : contacts)
     if (c.slides()) slip = std::fmax(slip, c.slip);
-  }
-  const std::string used = nearest ? fmt::format("at most {:.0f}\u00a0% of the friction is used, in '{}'",
-                                                 100.0 * nearest->friction_used, nearest->name)
-                                   : "";
+  const std::string used = most_friction_used(contacts);
   if (!sliding.empty()) {
-    finding.sentence =
-        fmt::format("{} of {} contacts slide{} as a whole, by up to {}: {}", sliding.size(), contacts.size(),
-                    sliding.size() == 1 ? "s" : "", with_unit(slip, "m"), list_of_names(sliding));
+    finding.sentence = fmt::format("{} of {} contacts slide{} as a whole, by up to {}: {}", sliding.size(), n_rough,
+                                   sliding.size() == 1 ? "s" : "", with_unit(slip, "m"), list_of_names(sliding));
     card.note = "by up to " + with_unit(slip, "m");
-  } else {
+  } else if (n_rough > 0) {
     finding.sentence = "No contact slides as a whole" + (used.empty() ? "" : " (" + used + ")");
     card.note = used;
+  }
+  if (n_free > 0) {
+    finding.sentence += n_rough > 0   ? "; " + free
+                        : n_free == 1 ? "The contact has no friction"
+                                      : "No contact has friction";
+    if (n_rough > 0) card.note += (card.note.empty() ? "" : "; ") + free;
   }
   if (!parted.empty()) {
     finding.sentence += fmt::format("; {} of them part{} for some time: {}", parted.size(),

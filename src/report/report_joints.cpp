@@ -241,7 +241,12 @@ std::string table_of_contacts(const Json& record) {
              "slides: largest share of the closed area at once; opens by: the largest opening of points that were "
              "closed "
              "when the step began; slips by: the largest since then; friction used: shear over friction times what "
-             "presses. A contact slides, or parts, where all of it does at some instant.");
+             "presses, or the moment of the shear about the contact's middle over what friction holds of it, where "
+             "that is "
+             "more, but for instants of less than a thousandth of the largest normal force. A contact slides as a "
+             "whole where all "
+             "of it slips at some instant and half of its friction or more is used, and parts where none of it "
+             "touches.");
 }
 
 }  // namespace

@@ -38,10 +38,15 @@ void ContactRecorder::find_contacts(const Instant& start) {
       for (const int part : {surfaces[s].part_1, surfaces[s].part_2})
         if (part >= 0) contacts_.back().parts.push_back(part);
       surfaces_.emplace_back();
+      middles_.emplace_back(Vec3::Zero());
     }
-    contacts_.back().area += surfaces[s].facing.areas.sum();
+    const Facing& facing = surfaces[s].facing;
+    contacts_.back().area += facing.areas.sum();
+    if (facing.n_points() > 0) middles_.back() += facing.places * facing.areas;
     surfaces_.back().push_back(static_cast<int>(s));
   }
+  for (size_t c = 0; c < contacts_.size(); ++c)
+    if (contacts_[c].area > 0.0) middles_[c] /= contacts_[c].area;
 }
 
 void ContactRecorder::begin_step(const Instant& start) {
@@ -126,7 +131,10 @@ void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Su
     const Vec3 n = surface.facing.normals.col(i);
     const double normal = point.force.dot(n), area = surface.facing.areas[i];
     sums.pressed -= normal;
-    sums.shear += point.force - normal * n;
+    const Vec3 shear = point.force - normal * n, arm = surface.facing.places.col(i) - middles_[watched.contact];
+    sums.shear += shear;
+    sums.moment += arm.cross(shear);
+    sums.leverage -= normal * arm.norm();
     sums.closed += area;
     if (point.status == PointState::slip) sums.sliding += area;
   });
@@ -141,8 +149,12 @@ void ContactRecorder::add(const Sums& sums, bool is_static, ContactSummary& cont
   step.shear = is_first ? shear : std::max(step.shear, shear);
   step.closed = is_first ? closed : std::min(step.closed, closed);
   if (!(contact.friction > 0.0)) return;
+  constexpr double next_to_none = 1e-3;  // of what has pressed: an instant of touch says nothing of friction
+  if (!is_first && sums.pressed < next_to_none * step.highest) return;
   const double sliding = sums.closed > 0.0 ? sums.sliding / sums.closed : 0.0,
-               used = sums.pressed > 0.0 ? shear / (contact.friction * sums.pressed) : 0.0;
+               of_shear = sums.pressed > 0.0 ? shear / (contact.friction * sums.pressed) : 0.0,
+               turning = sums.leverage > 0.0 ? sums.moment.norm() / (contact.friction * sums.leverage) : 0.0,
+               used = std::max(of_shear, turning);
   step.sliding = is_first ? sliding : std::max(*step.sliding, sliding);
   step.friction_used = is_first ? used : std::max(*step.friction_used, used);
 }
@@ -161,12 +173,15 @@ void ContactRecorder::accept(const Instant& instant) {
   for (const Watched& watched : watched_)
     look_at(instant, watched, of_each[watched.contact], contacts_[watched.contact].steps.back());
   std::vector<double> numbers;
+  constexpr size_t n_sums = 10;
   for (const Sums& of : of_each)
-    numbers.insert(numbers.end(), {of.pressed, of.shear[0], of.shear[1], of.shear[2], of.closed, of.sliding});
+    numbers.insert(numbers.end(), {of.pressed, of.shear[0], of.shear[1], of.shear[2], of.closed, of.sliding,
+                                   of.moment[0], of.moment[1], of.moment[2], of.leverage});
   numbers = ranks::sums(numbers);
   for (size_t c = 0; c < contacts_.size(); ++c) {
-    const double* n = numbers.data() + 6 * c;
-    if (is_watched[c]) add({n[0], {n[1], n[2], n[3]}, n[4], n[5]}, instant.is_static(), contacts_[c]);
+    const double* n = numbers.data() + n_sums * c;
+    if (is_watched[c])
+      add({n[0], {n[1], n[2], n[3]}, n[4], n[5], {n[6], n[7], n[8]}, n[9]}, instant.is_static(), contacts_[c]);
   }
   is_new_ = false;
   if (!instant.is_static()) follow_friction(instant);

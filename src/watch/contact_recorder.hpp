@@ -55,6 +55,9 @@ class ContactRecorder {
     double pressed = 0.0;                // N
     Vec3 shear = Vec3::Zero();           // N
     double closed = 0.0, sliding = 0.0;  // m^2
+    // N m, about the contact's middle: of the shear; of what presses, were it shear across the way there.
+    Vec3 moment = Vec3::Zero();
+    double leverage = 0.0;
   };
 
   void find_contacts(const Instant& start);
@@ -65,6 +68,7 @@ class ContactRecorder {
 
   std::vector<ContactSummary> contacts_;
   std::vector<std::vector<int>> surfaces_;  // of each contact
+  std::vector<Vec3> middles_;               // m, of each contact
   std::vector<Watched> watched_;            // in this step
   bool is_new_ = false;                     // the step: no increment yet
   std::vector<Rubbing> rubbing_;            // of each contact in this step, after those of the steps before

@@ -28,6 +28,36 @@ problem{ name = "bar", substructures = { low, high }, interfaces = { weld }, sup
               output.history{ name = "end", on = high:face "zmax", quantity = "displacement" } } }:run{}
 )";
 
+// A block of 10 mm, pressed by 2 kN, is turned on a plate by less than friction holds; or spreads under the pressure.
+TEST(Torque, uses_friction_and_what_spreads_does_not_slide_as_a_whole) {
+  const auto used = [](const char* torque, const char* young) {
+    const DeckRun run = run_text(R"(
+local p = param{ torque = 0, young = 210 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local soft = material.elastic{ name = "soft", young = p.young*GPa, poisson = 0.3, density = 7800 }
+local low = substructure{ name = "low", material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 4, 4, 2 }, origin = { -5*mm, -5*mm, 0 } } }
+local high = substructure{ name = "high", material = soft, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 4, 4, 4 }, origin = { 0, 0, 10*mm } } }
+local seat = interface.contact{ name = "seat", between = { low:face "zmax", high:face "zmin" }, friction = p.young < 100 and 0.01 or 0.2 }
+local press = { load.pressure{ on = high:face "zmax", history = 20*MPa } }
+if p.torque > 0 then press[2] = load.torque{ on = high:face "zmax", axis = { 0, 0, 1 }, history = p.torque } end
+problem{ name = "turned", substructures = { low, high }, interfaces = { seat }, supports = { support.fixed{ name = "base", on = low:face "zmin" } },
+  steps = { step.static{ name = "press", loads = press } } }:run{}
+)",
+                                 {{"torque", torque}, {"young", young}})
+                            .at(0);
+    return run.result->contacts.at(0).steps.back();
+  };
+  // Of an even pressure friction holds 0.2 * 2 kN * 0.3826 * 10 mm, with all of it at the corners 0.7071 * 10 mm: the
+  // edges press harder.
+  const ContactStep turned = used("0.8", "210");
+  EXPECT_LT(turned.friction_used.value(), 0.8 / (0.2 * 2000.0 * 0.3826 * 10e-3));
+  EXPECT_GT(turned.friction_used.value(), 0.8 / (0.2 * 2000.0 * 0.7071 * 10e-3));
+  EXPECT_LT(turned.shear, 1.0);
+  const ContactStep spreads = used("0", "2");
+  EXPECT_GT(spreads.sliding.value(), 0.7);
+  EXPECT_LT(spreads.friction_used.value(), 0.05);
+}
+
 DeckRun run_with(const std::string& solver, bool is_dynamic) {
   return run_text(two_bars, {{"dynamic", is_dynamic ? "1" : "0"}}, 0, solver).at(0);
 }
