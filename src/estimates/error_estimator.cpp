@@ -84,6 +84,9 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
       of_all_pieces(cut, n, [&](int, double* to) { std::copy_n(own_sums[next++].data(), n, to); });
   std::vector<double> sums(static_cast<size_t>(n), 0.0);
   for (size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
+  for (PartMotion& part : parts_) part.kinetic = 0.0;
+  for (int i = 0; i < cut.n_pieces(); ++i)
+    parts_[static_cast<size_t>(cut.piece(i).part)].kinetic += 0.5 * all[static_cast<size_t>(i * n)];
   kinetic_now_ = 0.5 * sums[0];
   if (!linked_.are_one()) kinetic_now_ -= linked_.energy_as_wholes(instant, momenta_of_all(), carried_->free());
   rate_ += sums[1];
@@ -125,7 +128,14 @@ void ErrorEstimator::begin_step(const Instant& start) {
   bank_.emplace(start.model.is_tuned());
   dt_ = start.interval();
   total_mass_ = 0.0;
-  for (const auto& piece : start.model.pieces) total_mass_ += piece->mass();
+  parts_.resize(start.model.problem->substructures.size());
+  for (PartMotion& part : parts_) part.mass = 0.0;
+  for (size_t i = 0; i < start.model.pieces.size(); ++i) {
+    const double mass = start.model.pieces[i]->mass();
+    total_mass_ += mass;
+    parts_[static_cast<size_t>(start.model.cut->piece(static_cast<int>(i)).part)].mass += mass;
+  }
+  starts_strained_ = start.state.energies.strain > 0.0;
   lag_ = 0.0;
   for (const double own : of_all_pieces(*start.model.cut, 1, [&](int i, double*to) {
          *to = mass_lag(*start.model.pieces[static_cast<size_t>(i)], *start.model.cut->piece(i).body);
@@ -190,6 +200,8 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
   sums_.strain += now.strain;
   strain_now_ = now.strain;
   shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.strain);
+  for (size_t i = 0; i < parts_.size(); ++i)
+    parts_[i].energy = std::max(parts_[i].energy, parts_[i].kinetic + now.strains[i]);
   ++n_stress_;
 }
 
@@ -203,10 +215,39 @@ void ErrorEstimator::accept(const Instant& instant) {
   const Energies& energies = instant.state.energies;
   linked_.accept(instant);
   take_velocities(instant);
+  if (instant.work_left) watch_parts(instant);
   kinetic_ = std::max(kinetic_, kinetic_now_);
   stored_ = std::max(stored_, energies.held());
   const long all = instant.model.step->n_increments(), i = instant.increment + 1;
   if ((i * n_samples) / all != ((i - 1) * n_samples) / all) sample_stress(instant);
+}
+
+// A light part on a heavy one has little of the energy that the tolerance is relative to. What the iteration leaves
+// between it and its neighbours feeds its own motion, or takes from it, increment after increment.
+void ErrorEstimator::watch_parts(const Instant& instant) {
+  std::vector<double> strains(parts_.size(), 0.0);
+  for (size_t i = 0; i < instant.work_left->size(); ++i) {
+    const auto part = static_cast<size_t>(instant.model.cut->piece(static_cast<int>(i)).part);
+    parts_[part].left += (*instant.work_left)[i];
+    strains[part] += (*instant.energies)[i].strain;
+  }
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    PartMotion& part = parts_[i];
+    part.most_left = std::max(part.most_left, std::abs(part.left));
+    // Of a step that starts strained the motion's own share is known where the stress is sampled.
+    const double with_strain = part.kinetic + (starts_strained_ ? 0.0 : strains[i]);
+    part.energy = std::max({part.energy, 2.0 * part.kinetic, with_strain});
+  }
+}
+
+// energy: J, of the shock, beside which next to nothing counts as rounding.
+std::vector<ErrorEstimator::OfPart> ErrorEstimator::of_parts(double energy) const {
+  std::vector<OfPart> all;
+  for (const PartMotion& part : parts_) {
+    const double own = std::max(part.energy, 1e-12 * energy);
+    all.push_back({part.most_left / own, part.mass > 0.0 ? std::sqrt(own / part.mass) : 0.0});
+  }
+  return all;
 }
 
 ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
@@ -214,6 +255,7 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   const double energy = this->energy();
   if (energy <= 0.0) return estimate;
   const double root = std::sqrt(energy);
+  estimate.parts = of_parts(energy);
   estimate.velocity = total_mass_ > 0.0 ? root / std::sqrt(total_mass_) : 0.0;
   estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
   estimate.time_step = (before_ + (bank_ ? bank_->phase_error(phase_factor_) : 0.0)) / root;
@@ -237,6 +279,10 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   estimate.mesh_dispersion = of_step * mesh.dispersion + 0.5 * frequency2 * lag_;
   estimate.mesh_shift = mesh.of_all;
   estimate.mesh_frequency = estimate.mesh_dispersion + estimate.mesh_shift;
+  const std::vector<OctaveBank::Lag> octaves = bank_ ? bank_->lags(phase_factor_) : std::vector<OctaveBank::Lag>();
+  for (const auto& [turn, error] : octaves)
+    estimate.lags.emplace_back(turn / (2 * std::numbers::pi * dt_), error / root * estimate.velocity);
+  estimate.main_frequency = estimate.mean_frequency;
   estimate.step_frequency = phase_factor_ * lag;
   return estimate;
 }

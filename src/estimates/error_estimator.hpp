@@ -23,16 +23,26 @@ class ErrorEstimator {
   void begin_step(const Instant& start);
   void accept(const Instant& instant);
 
+  // Of a substructure, of its own motion: what the work that the iteration leaves at its points is of its energy, and
+  // the velocity (m/s) at which all of its mass would have that (eq. Q17).
+  struct OfPart {
+    double imbalance = 0.0, velocity = 0.0;
+  };
   struct Estimate {
     double iteration = 0.0, time_step = 0.0, mesh = 0.0;  // relative, energy norm
     double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces, summed over the increments
     double mean_frequency = 0.0;    // Hz, of the energy of the velocities
     double velocity = 0.0;          // m/s, at which all mass would have the energy that the errors are relative to
+    double main_frequency = 0.0;    // Hz, that step_frequency is of
     // Apart (eq. Q14): relative errors of the mean frequency, and of amplitudes, in energy norm.
     double step_frequency = 0.0, mesh_frequency = 0.0, mesh_amplitude = 0.0;
     // Of mesh_frequency: what goes with the frequency, and what all frequencies have alike.
     double mesh_dispersion = 0.0, mesh_shift = 0.0;
-    double imbalance = 0.0;      // of the energy of the motion, what its balance misses: who keeps the books says so
+    double imbalance = 0.0;  // of the energy of the motion, what its balance misses: who keeps the books says so
+    // Of the time step, in the last dynamic step: about these frequencies (Hz) velocities are off by so much (m/s).
+    std::vector<std::pair<double, double>> lags;
+    std::vector<OfPart> parts;   // all of them, where there is an iteration
+    OfPart seen;                 // of the part that a spectrum is of
     bool joints_change = false;  // in the shock contacts touch, open or slide, or laws yield: who watches them says so
   };
   Estimate static_steps() const { return static_; }
@@ -48,6 +58,7 @@ class ErrorEstimator {
   // energy of the same displacements.
   struct StressEnergies {
     double within = 0.0, at_surface = 0.0, strain = 0.0;
+    std::vector<double> strains{};  // of the substructures
     double error() const { return within + at_surface; }
   };
   // What a piece that is here has of a dynamic step.
@@ -67,7 +78,16 @@ class ErrorEstimator {
     double dispersion = 0.0, of_all = 0.0;
   };
 
+  // Of a substructure in the dynamic steps.
+  struct PartMotion {
+    double mass = 0.0;                   // kg
+    double kinetic = 0.0, energy = 0.0;  // J, relative: now; largest so far, twice the kinetic or with the strain
+    double left = 0.0, most_left = 0.0;  // J, work that the iteration leaves at its points, so far; largest
+  };
+
   void accept_static(const Instant& instant);
+  void watch_parts(const Instant& instant);
+  std::vector<OfPart> of_parts(double energy) const;
   void take_velocities(const Instant& instant);
   void sample_stress(const Instant& instant);
   StressEnergies stress_energies(const Instant& instant);
@@ -98,6 +118,8 @@ class ErrorEstimator {
   std::vector<PieceMotion> pieces_;       // that are here, in a dynamic step
   std::optional<CarriedMotion> carried_;  // of the step
   LinkedParts linked_;
+  std::vector<PartMotion> parts_;  // in the dynamic steps
+  bool starts_strained_ = false;   // the step
   double dt_ = 0.0, phase_factor_ = 1.0;
   PartViews* views_;
   std::vector<std::vector<Facet>> boundary_;  // of each substructure, once it has been asked for

@@ -61,10 +61,12 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
   size_t next = 0;
   const std::vector<double> strains = of_all_pieces(cut, 1, [&](int, double* to) { *to = own_strains[next++]; });
   StressEnergies energies;
+  energies.strains.assign(volume_.size(), 0.0);
   for (size_t i = 0; i < strains.size(); ++i) {
     energies.within += errors[2 * i];
     energies.at_surface += errors[2 * i + 1];
     energies.strain += strains[i];
+    energies.strains[static_cast<size_t>(cut.piece(static_cast<int>(i)).part)] += strains[i];
   }
   return energies;
 }

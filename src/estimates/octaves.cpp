@@ -43,11 +43,22 @@ void OctaveBank::add(std::span<const double> content2) {
   }
 }
 
+// What has lost its phase has nothing in common with the exact motion.
+double OctaveBank::error_of(const Octave& octave, double factor, double shift) const {
+  return std::min(factor * octave.phase + shift * octave.turned, std::numbers::sqrt2 * octave.content);
+}
+
 double OctaveBank::phase_error(double factor, double shift) const {
   double sum = 0.0;
-  for (const Octave& octave : octaves_)
-    sum += std::pow(std::min(factor * octave.phase + shift * octave.turned, std::numbers::sqrt2 * octave.content), 2);
+  for (const Octave& octave : octaves_) sum += std::pow(error_of(octave, factor, shift), 2);
   return std::sqrt(sum);
+}
+
+std::vector<OctaveBank::Lag> OctaveBank::lags(double factor) const {
+  std::vector<Lag> all;
+  for (size_t i = 0; i < octaves_.size(); ++i)
+    all.push_back({std::numbers::pi / 2 / std::exp2(i), error_of(octaves_[i], factor, 0.0)});
+  return all;
 }
 
 }  // namespace dygita

@@ -42,6 +42,11 @@ class OctaveBank {
   // of all frequencies, adds what it turns them by.
   double phase_error(double factor = 1.0, double shift = 0.0) const;
   bool is_tuned() const { return is_tuned_; }
+  // What an octave turns by in a sample (rad), and its phase error (sqrt of J): what is off of its motion by now.
+  struct Lag {
+    double turn = 0.0, error = 0.0;
+  };
+  std::vector<Lag> lags(double factor) const;
 
  private:
   struct Octave {
@@ -49,6 +54,8 @@ class OctaveBank {
     double phase = 0.0;    // sum of content x phase error of a sample
     double turned = 0.0;   // sum of content x all that it turns by in a sample
   };
+  double error_of(const Octave& octave, double factor, double shift) const;
+
   bool is_tuned_;
   std::vector<Octave> octaves_;
 };

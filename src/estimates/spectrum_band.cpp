@@ -52,6 +52,23 @@ double mesh_error_beside(const ErrorEstimator::Estimate& errors, double frequenc
   return of_velocity * std::sqrt(phase2 + std::pow(amplitude2, 2));
 }
 
+// Relative, of all frequencies about this one: the time step moves them by shares that rise with their square (manual,
+// eq. Q18).
+double lag_at(double frequency, const ErrorEstimator::Estimate& errors) {
+  constexpr double most = 0.5;
+  if (errors.main_frequency <= 0.0) return 0.0;
+  return std::min(most, errors.step_frequency * std::pow(frequency / errors.main_frequency, 2));
+}
+
+// m/s (manual, eq. Q18): an oscillator hears the octaves about its own frequency, slower ones by their accelerations,
+// faster ones by their displacements.
+double heard_of(const std::vector<std::pair<double, double>>& velocities, double frequency) {
+  double sum = 0.0;
+  for (const auto& [about, velocity] : velocities)
+    sum += std::pow(velocity * std::min(about / frequency, frequency / about), 2);
+  return std::sqrt(sum);
+}
+
 constexpr size_t iteration_column = 1, time_step_column = 2, mesh_column = 3, all_column = 4, record_column = 5;
 
 double of_errors(const Table& band, size_t i) {
@@ -87,9 +104,15 @@ Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEsti
     }
     const double of_velocity = level / maximax[i];
     // Errors without a common sign are those of a motion beside the true one; what has one is missing in the balance.
+    const double of_part = errors.seen.velocity * std::pow(w, power) / maximax[i];
+    const double gathered = std::max(errors.imbalance, errors.seen.imbalance * std::min(1.0, of_part));
     band.columns[iteration_column].push_back(
-        std::hypot(decibels(1.0 + of_velocity * errors.iteration), decibels(1.0 + errors.imbalance)));
-    band.columns[time_step_column].push_back(decibels(1.0 + of_velocity * errors.time_step));
+        std::hypot(decibels(1.0 + of_velocity * errors.iteration), decibels(1.0 + gathered)));
+    band.columns[time_step_column].push_back(
+        errors.joints_change ? decibels(1.0 + of_velocity * errors.time_step)
+                             : std::hypot(largest_within(frequency, maximax, i, lag_at(frequency[i], errors)),
+                                          decibels(1.0 + band_share * heard_of(errors.lags, frequency[i]) *
+                                                             std::pow(w, power) / maximax[i])));
     band.columns[mesh_column].push_back(
         std::hypot(largest_within(frequency, maximax, i, moved_at(frequency[i], errors)),
                    decibels(1.0 + mesh_error_beside(errors, frequency[i], of_velocity))));

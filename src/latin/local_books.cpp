@@ -37,6 +37,7 @@ void LocalStage::accept(State* state, std::vector<IncrementEnergy>* energy) {
                 (*energy)[model_->exchange.ports[point.first_port].piece]);
     const double left = increment_.is_static ? 0.0 : work_of_found(i);
     if (state) (*energy)[model_->exchange.ports[point.first_port].piece].loads += left;
+    if (state && !increment_.is_static) book_work_left(point);
     p.law = end;
     if (state && point.law) show_point(point, p, *state);
   }
@@ -122,6 +123,21 @@ double LocalStage::work_of_found(int i_point) {
       if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0)
         power += found_[i] * ports_[p].residual[d] / k_[i];
   return increment_at(point).motion(std::exchange(points_left_[static_cast<size_t>(i_point)], power), power);
+}
+
+// Once for each substructure that meets there.
+void LocalStage::book_work_left(const Point& point) {
+  double power = 0.0;
+  for (int p = point.first_port; p < point.end_port; ++p)
+    for (int d = 0; d < 3; ++d)
+      if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0)
+        power += (ports_[p].f[d] - found_[i]) * ports_[p].residual[d] / k_[i];
+  const auto part_at = [&](int p) { return model_->cut->piece(model_->exchange.ports[p].piece).part; };
+  for (int p = point.first_port; p < point.end_port; ++p) {
+    bool is_first = true;
+    for (int before = point.first_port; before < p; ++before) is_first = is_first && part_at(before) != part_at(p);
+    if (is_first) work_left_[static_cast<size_t>(model_->exchange.ports[p].piece)] += model_->scheme.dt * power;
+  }
 }
 
 double LocalStage::work_on_pieces(const Point& point) const {

@@ -51,6 +51,7 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
     }
   found_ = found_forces(start);
   points_left_.assign(points_.size(), 0.0);
+  work_left_.assign(model_->pieces.size(), 0.0);
 }
 
 Vec LocalStage::initial_q() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 
 #include "law/law_slope.hpp"
 #include "step/interface_sums.hpp"
@@ -66,6 +67,11 @@ class LocalStage {
   // The same; forces, gaps, slips and works go into the state, energies of the points are added to those of the pieces
   // that they are booked with (one each).
   void accept(State& state, std::vector<IncrementEnergy>& energy) { accept(&state, &energy); }
+  // J, of each piece, since they were last taken: work of what the forces of its points have changed since the dynamic
+  // step began on what the iteration leaves between V and W_hat at them, on all their sides (manual, eq. Q17).
+  std::vector<double> take_work_left() {
+    return std::exchange(work_left_, std::vector<double>(work_left_.size(), 0.0));
+  }
   // Largest difference so far between a contact law's gap and that of the displacements, m.
   double gap_difference() const { return gap_difference_; }
   bool has_preloads() const { return !preloads_.empty(); }
@@ -132,6 +138,7 @@ class LocalStage {
   void show_residuals(const Point& point, State& state) const;
   Vec found_forces(const State& start) const;
   double work_of_found(int i_point);
+  void book_work_left(const Point& point);
   void find_surfaces();
   void follow_loads(State& state) const;
   // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S7).
@@ -149,6 +156,7 @@ class LocalStage {
   std::vector<Preload> preloads_;
   std::map<int, const Interface*> interfaces_;  // of surfaces whose laws are iterated on any rank, not preloaded
   std::vector<double> points_left_;             // W, of found_ on what is left at each point, in the last increment
+  std::vector<double> work_left_;               // J, of each piece, since they were last taken
   std::vector<double> limits_;                  // normal trials that limit tangential forces; empty: each point's own
   Vec prescribed_;                              // shortenings of the preloads; empty: found
   Increment increment_;

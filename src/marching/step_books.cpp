@@ -43,7 +43,8 @@ void StepBooks::accept_interval(int increment, int iterations, double eta, doubl
   if (distant_) distant_->forget();
   if (!step_.model.scheme.is_static) state.time = start_time_ + (increment + 1) * step_.model.step->dt;
   Energies& energies = state.energies;
-  book_increment(all_energies(), energies);
+  const std::vector<IncrementEnergy> of_pieces = all_energies();
+  book_increment(of_pieces, energies);
   if (!std::isfinite(energies.balance())) complete_energies(step_.energy);  // to tell where
   check_energies(step_.model, state, step_.energy, increment);
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
@@ -56,6 +57,12 @@ void StepBooks::accept_interval(int increment, int iterations, double eta, doubl
   const Stopwatch watch(step_.seconds.output);
   Instant shown = instant(increment, iterations, eta);
   shown.interface_energy = interface_energy;
+  std::vector<double> work_left;
+  if (!step_.model.scheme.is_static) {
+    const std::vector<double> own = step_.local.take_work_left();
+    work_left = of_all_pieces(*step_.model.cut, 1, [&](int i, double* to) { *to = own[static_cast<size_t>(i)]; });
+    shown.energies = &of_pieces, shown.work_left = &work_left;
+  }
   step_.files.observer.accept(shown);
 }
 

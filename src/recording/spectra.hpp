@@ -10,6 +10,11 @@ namespace dygita {
 
 inline constexpr const char* spectrum_names[] = {"maximax", "positive", "negative", "primary", "residual"};
 
+// The substructures that a history is on, among its findings: the band of a spectrum of it is of the motion of these.
+struct SeenParts {
+  std::vector<int> parts;
+};
+
 // The arguments of a spectrum. Throws InputError on both of 'q_factor' and 'damping', and on 'from' not below 'to'.
 SrsSettings srs_settings(const Arguments& arguments);
 

@@ -27,6 +27,10 @@ struct Instant {
   double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces in this increment (manual, eq. Q1)
   const NodalFields* fields = nullptr;     // null: the pieces have them
   const DistantPoints* distant = nullptr;  // null: all points of the interfaces are here
+  // Of a dynamic increment that is iterated, of all pieces: energies, and what the iteration has left at their points
+  // (LocalStage::take_work_left, J). Null: none.
+  const std::vector<IncrementEnergy>* energies = nullptr;
+  const std::vector<double>* work_left = nullptr;
 
   double time() const { return state.time; }
   // Increment of the scheme that ends the time step of the deck; negative at the step's start.

@@ -89,12 +89,69 @@ TEST(SpectrumBand, of_the_iteration_holds_what_builds_up) {
     }
 }
 
+// A tab, a web, boards and caps of 1/350 to 1/14000 of the mass: what the tolerance leaves at them is little of all.
+TEST(SpectrumBand, of_the_iteration_sees_light_parts_on_heavy_ones) {
+  double logarithms = 0.0;
+  int n = 0;
+  for (const char* number : {"1", "2", "3", "4", "5", "6", "7", "8", "9"})
+    for (const double tolerance : {1e-3, 1e-4}) {
+      const auto run = [&](double to) {
+        return run_spectra(std::filesystem::path(DYGITA_SOURCE_DIR) / "tests/bench/light_parts.lua",
+                           {{"scene", number}}, {}, 0.0, 0.0, to);
+      };
+      const SpectraRun loose = run(tolerance), tight = run(1e-3 * tolerance);
+      const BandWorth worth = band_worth(loose.spectra[0], tight.spectra[0], "iteration");
+      std::cout << "  scene " << number << ", tolerance " << tolerance << ": " << worth.band << " / " << worth.truth
+                << " dB\n";
+      EXPECT_GT(worth.band, 0.1 * worth.truth) << number;
+      logarithms += std::log(worth.band / worth.truth);
+      ++n;
+    }
+  EXPECT_GT(std::exp(logarithms / n), 0.5);
+  EXPECT_LT(std::exp(logarithms / n), 5.0);
+}
+
 TEST(SpectrumBand, of_the_iteration_has_what_the_balance_misses) {
   const Table spectrum{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 200.0}, {2.0, 3.0}}, {}};
   ErrorEstimator::Estimate errors;
   errors.velocity = 1e-2, errors.imbalance = 0.05;
   const Table band = spectrum_band(spectrum, SrsQuantity::absolute_acceleration, errors);
   for (const double decibels : band.column("iteration")) EXPECT_NEAR(decibels, 20.0 * std::log10(1.05), 1e-12);
+}
+
+// A part's own motion is no more than the spectrum at a place on it.
+TEST(SpectrumBand, of_the_iteration_has_what_is_left_at_the_part) {
+  const Table spectrum{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 200.0}, {2.0, 3e4}}, {}};
+  ErrorEstimator::Estimate errors;
+  errors.velocity = 1e-2, errors.imbalance = 1e-4, errors.seen = {0.05, 1.0};
+  const Table band = spectrum_band(spectrum, SrsQuantity::absolute_acceleration, errors);
+  EXPECT_NEAR(band.column("iteration")[0], 20.0 * std::log10(1.05), 1e-12);
+  EXPECT_NEAR(band.column("iteration")[1], 20.0 * std::log10(1.0 + 0.05 * 2.0 * std::numbers::pi * 200.0 * 1.0 / 3e4),
+              1e-12);
+}
+
+// A lag moves the frequencies of a spectrum with their square; the rest an oscillator hears of its own octave most.
+TEST(SpectrumBand, of_the_time_step_is_that_of_what_is_heard) {
+  Table rising{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{}, {}}, {}};
+  for (double f = 100.0; f < 7000.0; f *= 2.0)
+    rising.columns[0].push_back(f), rising.columns[1].push_back(1e-4 * f * f);
+  ErrorEstimator::Estimate errors;
+  errors.velocity = 1e-2, errors.time_step = 0.3, errors.main_frequency = 800.0, errors.step_frequency = 0.001;
+  const Table moved = spectrum_band(rising, SrsQuantity::absolute_acceleration, errors);
+  for (size_t i = 1; i < 5; ++i)
+    EXPECT_NEAR(moved.column("time_step")[i],
+                40.0 * std::log10(1.0 + 0.001 * std::pow(rising.columns[0][i] / 800.0, 2)), 1e-9);
+  errors.step_frequency = 0.0, errors.lags = {{400.0, 1e-3}};
+  const Table heard = spectrum_band(rising, SrsQuantity::absolute_acceleration, errors);
+  for (size_t i = 0; i < 7; ++i) {
+    const double f = rising.columns[0][i], of_octave = 1e-3 * std::min(f / 400.0, 400.0 / f);
+    EXPECT_NEAR(heard.column("time_step")[i],
+                20.0 * std::log10(1.0 + 0.3 * 2.0 * std::numbers::pi * f * of_octave / rising.columns[1][i]), 1e-9);
+  }
+  errors.joints_change = true;
+  const Table meet = spectrum_band(rising, SrsQuantity::absolute_acceleration, errors);
+  EXPECT_NEAR(meet.column("time_step")[2],
+              20.0 * std::log10(1.0 + 0.3 * 2.0 * std::numbers::pi * 400.0 * 3e-3 / rising.columns[1][2]), 1e-9);
 }
 
 // A spectrum that rises with the square of the frequency changes by twice the share by which the mesh moves it, and one

@@ -8,6 +8,7 @@
 #include "recording/output_table.hpp"
 #include "recording/placed.hpp"
 #include "recording/recorder.hpp"
+#include "recording/spectra.hpp"
 #include "watch/growth.hpp"
 #include "watch/surface_sums.hpp"
 #include "watch/weighted_nodes.hpp"
@@ -91,6 +92,12 @@ class HistoryRecorder : public TableRecorder {
   }
   void accept(const Instant& instant) override {
     add_row(instant, request_.is_mean() ? mean_time(instant) : instant.time(), values(instant));
+  }
+  void finish(Table& table, Findings& findings) override {
+    TableRecorder::finish(table, findings);
+    SeenParts seen;
+    for (const WeightedNodes& group : groups_) seen.parts.push_back(group.part);
+    findings.model = std::move(seen);
   }
 
  private:

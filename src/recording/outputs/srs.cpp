@@ -103,7 +103,7 @@ class SrsOutput final : public Output {
         // A run that is stopped before anything was sampled knows nothing of its mesh.
         const bool is_known = !end.result.interrupted || end.errors.mesh > 0.0;
         if (!end.problem.explicit_dynamics && is_known)
-          findings.band = spectrum_band(table, srs_.quantity, end.errors, record, judged_.c_str());
+          findings.band = spectrum_band(table, srs_.quantity, errors_seen(end), record, judged_.c_str());
         findings.model =
             doubts_of_end("spectrum '" + name + "'", srs, record, judged, end_of_record(end.problem, history, 1));
       }
@@ -129,6 +129,17 @@ class SrsOutput final : public Output {
   static FrequencyRange judged_range(const Findings& findings) {
     const auto from = findings.values.find("judged_from"), to = findings.values.find("judged_to");
     return from == findings.values.end() ? FrequencyRange{} : FrequencyRange{from->second, to->second};
+  }
+
+  // Of the part that it is of, the one of most doubt where it is of several.
+  ErrorEstimator::Estimate errors_seen(const RunEnd& end) const {
+    ErrorEstimator::Estimate errors = end.errors;
+    if (const auto* seen = std::any_cast<SeenParts>(&end.result.findings_of(*of_).model))
+      for (const int part : seen->parts)
+        if (static_cast<size_t>(part) < errors.parts.size() &&
+            errors.parts[static_cast<size_t>(part)].imbalance > errors.seen.imbalance)
+          errors.seen = errors.parts[static_cast<size_t>(part)];
+    return errors;
   }
 
   Exceedance exceedance(const Table& table, const Findings& findings) const {
