@@ -247,6 +247,24 @@ TEST(Report, says_in_words_what_the_run_shows_and_its_tiles_agree) {
   EXPECT_EQ(page.find("card fair"), std::string::npos);
 }
 
+// What spreads under a head slips at all its points at once, and carries no shear; what has no friction has none to
+// use.
+TEST(Report, counts_what_slides_one_way_of_what_has_friction) {
+  const Scratch scratch;
+  Example run = long_record();
+  ContactSummary smooth = contact("smooth", 0.0, 0.0);
+  smooth.friction = 0.0;
+  for (ContactStep& step : smooth.steps) step.sliding = step.slip = step.friction_used = std::nullopt;
+  run.result.contacts = {contact("seat", 0.3, 0.6), contact("washer", 1.0, 0.05), smooth};
+  expect_all(verdict_of_page(run.write(scratch.path())),
+             {"No contact slides as a whole (at most 60\u00a0% of the friction is used, in &#39;seat&#39;); 1 without "
+              "friction slides freely"});
+  run.result.contacts = {contact("pad", 1.0, 1.0), smooth};
+  expect_all(verdict_of_page(run.write(scratch.path())), {"1 of 1 contacts slides as a whole"});
+  run.result.contacts = {smooth};
+  expect_all(verdict_of_page(run.write(scratch.path())), {"The contact has no friction"});
+}
+
 TEST(Report, of_a_bolt_that_has_come_loose_and_a_contact_that_slides_is_not_green) {
   const Scratch scratch;
   Example run = long_record();
