@@ -227,12 +227,14 @@ std::string said_of_friction(const Settings& settings) {
 }
 
 TEST(TimeStep, that_is_too_long_for_friction_is_said) {
-  const std::string said = said_of_friction({{"dt", "100e-6"}});
-  std::cout << "  " << said << "\n";
-  EXPECT_EQ(said.rfind("step 'ring': ", 0), 0u);
-  EXPECT_GT(std::atof(said.c_str() + std::string("step 'ring': ").size()), 30.0);
+  const auto share = [](const std::string& said) {
+    EXPECT_EQ(said.rfind("step 'ring': ", 0), 0u);
+    return said.empty() ? 0.0 : std::atof(said.c_str() + std::string("step 'ring': ").size());
+  };
+  const double coarse = share(said_of_friction({{"dt", "100e-6"}})), fine = share(said_of_friction({}));
+  EXPECT_GT(coarse, 40.0);
+  EXPECT_LT(fine, 30.0);
   EXPECT_EQ(said_of_friction({{"rough", "1"}}), "");
-  EXPECT_EQ(said_of_friction({{"dt", "5e-6"}}), "");
 }
 
 }  // namespace
