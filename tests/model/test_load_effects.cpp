@@ -19,6 +19,7 @@ class ModesOfNothing final : public OutputDouble, public ModeShapes {
   Points mass_times_shape(const Substructure& part, int number) const override { return shape(part, number); }
   double generalised_mass(int) const override { return 1.0; }
   double frequency(int) const override { return 0.0; }
+  double damping_ratio(int) const override { return 0.0; }
 };
 
 class LoadEffects : public Assembly {

@@ -214,10 +214,24 @@ std::string verdict_of_page(const std::string& page) {
 }
 
 ContactSummary contact(const std::string& name, double sliding, double used) {
-  ContactSummary summary{name, 1e-4, 0.25, {}};
-  summary.steps.push_back({0, 900, 900, 10, 1.0, 0.0, 0.0, 1e-8, 0.05});
-  summary.steps.push_back({1, 500, 1200, 150, 0.75, 2e-7, sliding, 3e-6, used});
-  return summary;
+  const ContactStep still{.step = 0,
+                          .lowest = 900,
+                          .highest = 900,
+                          .shear = 10,
+                          .closed = 1.0,
+                          .sliding = 0.0,
+                          .slip = 1e-8,
+                          .friction_used = 0.05};
+  const ContactStep moving{.step = 1,
+                           .lowest = 500,
+                           .highest = 1200,
+                           .shear = 150,
+                           .closed = 0.75,
+                           .opening = 2e-7,
+                           .sliding = sliding,
+                           .slip = 3e-6,
+                           .friction_used = used};
+  return {.name = name, .area = 1e-4, .friction = 0.25, .steps = {still, moving}};
 }
 
 TEST(Report, says_in_words_what_the_run_shows_and_its_tiles_agree) {
@@ -492,7 +506,13 @@ TEST(Report, tells_first_what_matters) {
   part->material = {"steel", 210e9, 0.3, 7800.0, {}};
   part->yield = 640e6;
   run.problem.substructures[0] = part;
-  run.result.stresses = {{0, 800e6, 640e6, 2e-6, 1, {0.01, 0, 0.5}, 0.125}};
+  run.result.stresses = {{.part = 0,
+                          .largest = 800e6,
+                          .allowed = 640e6,
+                          .time = 2e-6,
+                          .step = 1,
+                          .place = {0.01, 0, 0.5},
+                          .above = 0.125}};
   const std::string page = run.write(scratch.path());
   EXPECT_EQ(test::xml_fault(page, void_elements), "");
   size_t last = 0;
