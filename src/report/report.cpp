@@ -24,10 +24,10 @@ std::string page_of(const RunFolder& run, const ReportRequest& request) {
   time.note_missed(run.table("convergence.csv"));
   // What matters first; the folder's faults are known only at the end.
   std::string body = verdict_section(run, request) + spectra_section(run, time, request) + picture_section(run) +
-                     limits_section(run) + motion_section(run) + margins_section(run) + bolts_section(run) + joints_section(run, time) +
-                     peaks_section(run, time, request) + attenuation_section(run, time) + histories_section(run, time) +
-                     modes_section(run) + condensed_section(run) + masses_section(run) + energy_section(run, time) +
-                     convergence_section(run) + cost_section(run) + computed_section(run);
+                     limits_section(run) + motion_section(run) + margins_section(run) + bolts_section(run) +
+                     joints_section(run, time) + peaks_section(run, time, request) + attenuation_section(run, time) +
+                     histories_section(run, time) + modes_section(run) + condensed_section(run) + masses_section(run) +
+                     energy_section(run, time) + convergence_section(run) + cost_section(run) + computed_section(run);
   return html::page(text(run.record(), "problem") + ", " + text(run.record(), "case"),
                     title_section(run) + html::list(run.faults(), "warnings") + body);
 }
