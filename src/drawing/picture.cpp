@@ -131,7 +131,7 @@ View view_of_side(const std::vector<SubstructurePtr>& parts, double turn, double
   const double across = std::max(high[0] - low[0], 1e-9), up = std::max(high[1] - low[1], 1e-9);
   // Deformed shapes need some room.
   view.size = 1.08 * across;
-  double height = 1.08 * up / view.size * (view.width - 2.0 * picture_margin) + 2.0 * picture_margin + 16.0;
+  double height = up / view.size * (view.width - 2.0 * picture_margin) + 2.0 * picture_margin + 16.0;
   constexpr double highest = 560.0;
   if (height > highest) {
     view.size *= (height - 2.0 * picture_margin) / (highest - 2.0 * picture_margin);
