@@ -179,14 +179,14 @@ std::string LuaArguments::file(const char* key) const {
 
 std::vector<int> LuaArguments::ids() const {
   std::vector<int> found;
-  const auto note = [&] {
-    if (const Object* object = object_at(L_, -1); object && object->id >= 0) found.push_back(object->id);
+  // Lists, and lists of tables: plies of a laminate.
+  const std::function<void(int, int)> note_all = [&](int table, int deeper) {
+    for (lua_pushnil(L_); lua_next(L_, table); lua_pop(L_, 1)) {
+      if (const Object* object = object_at(L_, -1); object && object->id >= 0) found.push_back(object->id);
+      if (deeper > 0 && lua_istable(L_, -1)) note_all(lua_gettop(L_), deeper - 1);
+    }
   };
-  for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {
-    note();
-    if (!lua_istable(L_, -1)) continue;
-    for (lua_pushnil(L_); lua_next(L_, -2); lua_pop(L_, 1)) note();
-  }
+  note_all(index_, 2);
   return found;
 }
 

@@ -143,10 +143,12 @@ double known_value(const History& history, double t) {
   }
 }
 
-// As many as resolve the time steps, where they are not too many; a power of two, as the transform likes them.
+// As many as resolve the time steps, where they are not too many (and the most where dt is yet to be chosen); a power
+// of two, as the transform likes them.
 std::vector<double> samples_of(const History& history, const Step& step) {
   constexpr unsigned fewest = 256, most = 1u << 17;
-  const unsigned n = std::bit_ceil(std::clamp(4u * static_cast<unsigned>(step.n_increments()), fewest, most));
+  const unsigned wanted = step.dt > 0.0 ? 4u * static_cast<unsigned>(step.n_increments()) : most,
+                 n = std::bit_ceil(std::clamp(wanted, fewest, most));
   std::vector<double> samples(n, 0.0);
   for (unsigned i = 0; i < n; ++i) {
     try {

@@ -110,6 +110,11 @@ void add_supports(const Instant& instant, LinearAssembly& assembly) {
       for (int j = 0; j < held.n; ++j)
         add_condition(assembly, assembly.first_node[part] + node, -1, held.directions.col(j));
   }
+  // The last amplitudes of a body of matrices share a node with directions that are none.
+  const auto& parts = instant.model.problem->substructures;
+  for (size_t part = 0; part < parts.size(); ++part)
+    for (const auto& [node, direction] : parts[part]->mesh->inside->absent)
+      add_condition(assembly, assembly.first_node[part] + node, -1, direction);
 }
 
 // Basis of the displacements (3 per node) that the conditions of a place leave: an orthonormal one of their null space.

@@ -381,6 +381,25 @@ problem{ name = "lever", substructures = { low }, steps = { push },
 
 // --- copies, and superelements of superelements
 
+// Amplitudes fill nodes by threes; what is left of the last node is no unknown.
+TEST(SuperelementPart, has_the_frequencies_of_its_matrices_with_any_number_of_modes) {
+  for (const char* n : {"3", "4", "5"}) {
+    const Folder folder;
+    folder.condense(condensing, {{"n", n}});
+    const DeckRun modes = run_text(R"(
+local low = substructure.superelement{ name = "low", file = ")" +
+                                   folder.of("low.json") + R"(" }
+problem{ name = "free", substructures = { low }, steps = { step.static{ name = "rest", increments = 1 } },
+         outputs = { output.modes{ name = "modes", n = 10 } } }:run{}
+)")
+                              .at(0);
+    const std::vector<double> expected = run_text(condensing, {{"n", n}}).at(0).column("low", "frequency"),
+                              &found = modes.column("modes", "frequency");
+    ASSERT_GE(found.size(), 9u) << n;
+    for (size_t i = 6; i < 9; ++i) EXPECT_NEAR(found.at(i), expected.at(i), 1e-6 * expected.at(i)) << n << ", " << i;
+  }
+}
+
 TEST(SuperelementPart, condensed_once_more_has_the_frequencies_it_had) {
   const Folder folder;
   folder.condense(condensing);
