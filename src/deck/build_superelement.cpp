@@ -18,7 +18,7 @@ void doubt_size(const Substructure& part) {
   if (nodes.cols() == 0) return;
   const double size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff();
   if (size >= smallest_part && size <= largest_part) return;
-  warn(fmt::format("{}substructure '{}' measures {:g} m; coordinates are metres unless mesh.gmsh says unit = mm",
+  warn(fmt::format("{}substructure '{}' measures {:g} m; coordinates are metres unless its mesh says unit = mm",
                    part.origin.prefix(), part.name, size));
 }
 
