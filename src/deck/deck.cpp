@@ -1,3 +1,5 @@
+// A deck from its text to its results. One file, since the state of Lua, its limits and what a deck is given of its
+// runs pass through every function here.
 #include "deck/deck.hpp"
 
 #include <spdlog/fmt/fmt.h>

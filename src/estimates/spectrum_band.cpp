@@ -60,9 +60,9 @@ double lag_at(double frequency, const ErrorEstimator::Estimate& errors) {
   return std::min(most, errors.step_frequency * std::pow(frequency / errors.main_frequency, 2));
 }
 
-// m/s (manual, eq. Q18): an oscillator hears the octaves about its own frequency, slower ones by their accelerations,
-// faster ones by their displacements.
-double heard_of(const std::vector<std::pair<double, double>>& velocities, double frequency) {
+// m/s (manual, eq. Q18): an oscillator responds to octaves about its own frequency, to slower ones by their
+// accelerations, faster ones by their displacements.
+double response_to(const std::vector<std::pair<double, double>>& velocities, double frequency) {
   double sum = 0.0;
   for (const auto& [about, velocity] : velocities)
     sum += std::pow(velocity * std::min(about / frequency, frequency / about), 2);
@@ -111,7 +111,7 @@ Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEsti
     band.columns[time_step_column].push_back(
         errors.joints_change ? decibels(1.0 + of_velocity * errors.time_step)
                              : std::hypot(largest_within(frequency, maximax, i, lag_at(frequency[i], errors)),
-                                          decibels(1.0 + band_share * heard_of(errors.lags, frequency[i]) *
+                                          decibels(1.0 + band_share * response_to(errors.lags, frequency[i]) *
                                                              std::pow(w, power) / maximax[i])));
     band.columns[mesh_column].push_back(
         std::hypot(largest_within(frequency, maximax, i, moved_at(frequency[i], errors)),

@@ -130,7 +130,8 @@ TEST(SpectrumBand, of_the_iteration_has_what_is_left_at_the_part) {
               1e-12);
 }
 
-// A lag moves the frequencies of a spectrum with their square; the rest an oscillator hears of its own octave most.
+// A lag moves the frequencies of a spectrum with their square; to the rest an oscillator responds in its own octave
+// most.
 TEST(SpectrumBand, of_the_time_step_is_that_of_what_is_heard) {
   Table rising{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{}, {}}, {}};
   for (double f = 100.0; f < 7000.0; f *= 2.0)

@@ -108,7 +108,7 @@ TEST(Attenuation, says_nothing_of_an_axis_along_which_nothing_enters) {
   }
 }
 
-// From a to d: through an isolator, or around by a bolted joint and a bond; e hangs on nothing.
+// From a to d: through an isolator, or around by a bolted joint and a bond; e is connected to nothing.
 TEST(Attenuation, is_compared_with_the_rule_of_thumb_of_its_way) {
   const auto rule_of = [](const Settings& settings) {
     return run_text(R"(

@@ -6,6 +6,7 @@
 #include "base/log.hpp"
 #include "foreign/foreign_meshes.hpp"
 #include "foreign/nastran_blocks.hpp"
+#include "foreign/quietly.hpp"
 #include "foreign/written_file.hpp"
 #include "mesh/expect_input_error.hpp"
 #include "mesh/face_nodes.hpp"
@@ -23,15 +24,7 @@ std::shared_ptr<const ForeignMeshes> read(const std::string& text, const std::st
     options.unit = options.units->length;
   }
   options.skip = skip;
-  testing::internal::CaptureStdout();
-  try {
-    const auto file = ForeignMeshes::of_nastran(options);
-    testing::internal::GetCapturedStdout();
-    return file;
-  } catch (...) {
-    testing::internal::GetCapturedStdout();
-    throw;
-  }
+  return quietly([&] { return ForeignMeshes::of_nastran(options); });
 }
 
 void refuse(const std::string& text, std::initializer_list<const char*> words) {

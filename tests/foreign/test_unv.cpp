@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "foreign/foreign_meshes.hpp"
+#include "foreign/quietly.hpp"
 #include "foreign/unv_blocks.hpp"
 #include "foreign/written_file.hpp"
 #include "mesh/expect_input_error.hpp"
@@ -18,15 +19,7 @@ std::shared_ptr<const ForeignMeshes> read(const std::string& text, double unit =
   options.has_unit = unit > 0.0;
   if (options.has_unit) options.unit = unit;
   options.skip = skip;
-  testing::internal::CaptureStdout();
-  try {
-    const auto file = ForeignMeshes::of_unv(options);
-    testing::internal::GetCapturedStdout();
-    return file;
-  } catch (...) {
-    testing::internal::GetCapturedStdout();
-    throw;
-  }
+  return quietly([&] { return ForeignMeshes::of_unv(options); });
 }
 
 void refuse(const std::string& text, std::initializer_list<const char*> words) {
