@@ -8,15 +8,28 @@ ConstantDirections::ConstantDirections(StepData& step, Stages& stages)
     : step_(step),
       stages_(stages),
       anderson_(step.settings.of_increment.depth, step.settings.of_increment.n_problems,
-                step.settings.of_increment.relaxation, step.weight, InterfaceSums(step.model)) {}
+                step.settings.of_increment.relaxation, step.weight, InterfaceSums(step.model)),
+      has_half_(ranks::any(std::any_of(step.model.here.begin(), step.model.here.end(), [&](int i) {
+        return step.model.pieces[static_cast<size_t>(i)]->has_operator_in_half();
+      }))) {}
 
 void ConstantDirections::begin(double /*tolerance*/) {
   anderson_.begin();
   step_.at.uncorrected.resize(0);
 }
 
-void ConstantDirections::linear_stage(int /*n*/, bool is_told) {
-  stages_.linear_stage(step_.at.q, step_.at.velocity, is_told);
+// The first two are whole: where the increment starts, and what is predicted of it.
+void ConstantDirections::linear_stage(int n, bool is_told) {
+  is_in_half_ = has_half_ && n > 1 && !is_whole_due_;
+  is_whole_due_ = false;
+  stages_.linear_stage(step_.at.q, step_.at.velocity, is_told, is_in_half_);
+}
+
+bool ConstantDirections::settles(const Goal& goal, const Outcome& outcome, Best& best) {
+  if (!is_in_half_ || outcome.eta > goal.tolerance) return false;
+  is_whole_due_ = true;
+  best.outcome = {};
+  return true;
 }
 
 void ConstantDirections::advance(const Outcome& /*outcome*/) {

@@ -31,6 +31,7 @@ class ConstantDirections final : public SearchDirections {
   explicit ConstantDirections(StepData& step, Stages& stages);
   void begin(double tolerance) override;
   void linear_stage(int n, bool is_told) override;
+  bool settles(const Goal& goal, const Outcome& outcome, Best& best) override;
   void advance(const Outcome& outcome) override;
   Anderson& acceleration() { return anderson_; }
 
@@ -38,6 +39,10 @@ class ConstantDirections final : public SearchDirections {
   StepData& step_;
   Stages& stages_;
   Anderson anderson_;
+  // Changes within an increment are answered in half precision (manual, eq. A6): was the last linear stage, and is the
+  // next one to be whole?
+  const bool has_half_;
+  bool is_in_half_ = false, is_whole_due_ = false;
 };
 
 // All pieces in one system: V and F are in balance after every iteration but the first.

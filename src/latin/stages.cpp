@@ -9,13 +9,15 @@ Stages::Stages(StepData& step, const Vec& k)
   if (step.settings.is_assembled) system_.emplace(step.model, step.local, k, step.settings.assembly_size);
 }
 
-void Stages::linear_stage(const Vec& q, Vec& velocity, bool is_told) {
+void Stages::linear_stage(const Vec& q, Vec& velocity, bool is_told, bool in_half) {
   const Stopwatch watch(step_.seconds.interface);
   if (system_) return system_->linear_stage(q, velocity);
   if (joint::is_joint()) return joint::interface_velocities(step_.model, q, velocity);  // all pieces are here
   const NearUnknowns& near = step_.model.near;
   const auto answer = [&](Piece& piece, int i) {
-    piece.interface_velocity(q.segment(near.start(i), piece.n_rows()), velocity.segment(near.start(i), piece.n_rows()));
+    const auto data = q.segment(near.start(i), piece.n_rows());
+    auto to = velocity.segment(near.start(i), piece.n_rows());
+    in_half ? piece.interface_velocity_in_half(data, to) : piece.interface_velocity(data, to);
   };
   step_.loops.for_each(turns_.border, answer);
   if (is_told) step_.model.near.begin({q.data(), velocity.data()});

@@ -54,6 +54,7 @@ SpdInverse::SpdInverse(Mat a, Form form, const Storage& storage, const std::stri
   if (form == Form::matrix) {
     invert_factor(a, give_up_if_stopped);
     matrix_ = SymmetricOperator(a, storage.precision, storage.error);
+    if (storage.half_error > 0.0) half_ = SymmetricOperator(a, Precision::single_precision, storage.half_error);
     if (storage.rough_error > 0.0) rough_ = SymmetricOperator(a, Precision::single_precision, storage.rough_error);
     return;
   }

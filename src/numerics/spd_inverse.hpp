@@ -24,11 +24,12 @@ class SpdInverse {
   // twice as much.
   enum class Form { matrix, factor };
 
-  // How a matrix is kept: as a SymmetricOperator of this precision and error; and beside it, where rough_error is not
-  // zero, another of that error, most of which is then not stored at all.
+  // How a matrix is kept: as a SymmetricOperator of this precision and error; and beside it, where their errors are not
+  // zero, another one in half precision, of which most entries take 8 or 16 bits, and a rough one, most of which is not
+  // stored at all.
   struct Storage {
     Precision precision = Precision::double_precision;
-    double error = 0.0, rough_error = 0.0;
+    double error = 0.0, half_error = 0.0, rough_error = 0.0;
   };
 
   // The lower triangle of a is read. A factor is kept in double precision, with nothing beside it. Throws
@@ -43,21 +44,23 @@ class SpdInverse {
   void multiply(const Vec& x, Vec& y) const;
   // The same of several vectors.
   void multiply(std::span<const double* const> x, std::span<double* const> y) const;
-  // The same with what is kept of A^-1 roughly.
+  // The same with what is kept of A^-1 in half precision, or roughly.
+  bool has_half() const { return half_.size() > 0; }
+  void multiply_in_half(const Vec& x, Vec& y) const { half_.multiply(x, y); }
   bool has_rough() const { return rough_.size() > 0; }
   void multiply_roughly(const Vec& x, Vec& y) const { rough_.multiply(x, y); }
   // A^-1 X of many columns, by dense algebra.
   Mat times(Mat x) const;
   // A^-1, its lower triangle.
   Mat lower() const;
-  double bytes() const { return form_ == Form::matrix ? matrix_.bytes() + rough_.bytes() : factor_.bytes(); }
+  double bytes() const { return form_ == Form::matrix ? matrix_.bytes() + half_.bytes() + rough_.bytes() : factor_.bytes(); }
 
  private:
   Mat unpacked_factor() const;
 
   int n_ = 0;
   Form form_;
-  SymmetricOperator matrix_, rough_;
+  SymmetricOperator matrix_, half_, rough_;
   Panels factor_;
 };
 

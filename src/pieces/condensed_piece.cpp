@@ -109,7 +109,7 @@ void CondensedPiece::set_search_directions(const Vec& k) {
            : std::make_shared<const SpdInverse>(
                  condensation_.take_with_rows(op_, k),
                  SpdInverse::cheapest(condensation_.factor->n_interface(), setup.n_products),
-                 SpdInverse::Storage{setup.precision, setup.storage_error / 16, setup.rough_error}, setup.what);
+                 SpdInverse::Storage{setup.precision, setup.storage_error / 16, setup.half_error, setup.rough_error}, setup.what);
   condensation_.schur.reset();
 }
 
@@ -232,6 +232,21 @@ void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec>
   const SpdInverse* const h = to_multiply(q, velocity, rhs);
   if (!h) return;
   h->multiply(rhs, dv_b_);
+  if (h->has_half()) {
+    whole_rhs_ = rhs;
+    whole_ = dv_b_;
+  }
+  take_product(velocity);
+}
+
+void CondensedPiece::interface_velocity_in_half(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+  // A piece that rested has no product of this increment to start from.
+  if (!h_->has_half() || !is_moved_) return interface_velocity(q, velocity);
+  thread_local Vec rhs;
+  to_multiply(q, velocity, rhs);
+  rhs -= whole_rhs_;
+  h_->multiply_in_half(rhs, dv_b_);
+  dv_b_ += whole_;
   take_product(velocity);
 }
 

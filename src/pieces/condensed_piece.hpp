@@ -46,6 +46,8 @@ class CondensedPiece final : public ImplicitPiece {
   bool is_moved() const override { return is_moved_; }
   void wake() override;
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
+  bool has_operator_in_half() const override { return h_ && h_->has_half(); }
+  void interface_velocity_in_half(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
   // What the solves of an increment are made of, where somebody else does them for several pieces of one key or one H
   // at once, of whichever runs. Null: nothing to solve.
   Vec* to_substitute_forward();  // then take_forward()
@@ -73,6 +75,7 @@ class CondensedPiece final : public ImplicitPiece {
   std::shared_ptr<const SpdInverse> h_;
   // Of the increment at hand: the condensed right-hand side, and the interface's answer.
   Vec b_, dv_b_;
+  Vec whole_rhs_, whole_;  // what H itself was last multiplied with, and its answer; empty: H has no form in half precision
   double quiet_ = 0.0;
   bool is_forward_due_ = false, is_moved_ = false;  // the forward solve is put off; the interfaces have moved
   long n_solved_ = 0, n_spared_ = 0;

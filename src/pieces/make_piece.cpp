@@ -19,9 +19,11 @@ struct Layout {
   double n_interface() const { return static_cast<double>(std::count(is_interface.begin(), is_interface.end(), 1)); }
 };
 
-// As stored; in single precision fitted to the operators of the bolted flanges.
+// Of an entry of H that is stored with such an error: fitted to the operators of the bolted flanges.
+double bytes_of_entry(double error) { return std::max(0.0, 0.1 * std::log2(1.0 / error) - 1.5); }
+
 double bytes_of_operator_entry(const PieceSetup& setup) {
-  return setup.precision == Precision::double_precision ? 8.0 : 0.1 * std::log2(16.0 / setup.storage_error) - 1.5;
+  return setup.precision == Precision::double_precision ? 8.0 : bytes_of_entry(setup.storage_error / 16.0);
 }
 
 double factor_bytes(const PieceSetup& setup, const SparseMatrix& matrix, const Layout& layout,
@@ -81,8 +83,8 @@ double predicted_bytes(const PieceSetup& setup, bool has_twin) {
   if (const std::optional<double> full = cheaper_in_full(setup, matrix, layout)) return *full + vectors;
   if (has_twin) return vectors;
   const double n_b = layout.n_interface();
-  return factor_bytes(setup, matrix, layout, layout.is_interface) + bytes_of_operator_entry(setup) * 0.5 * n_b * n_b +
-         vectors;
+  const double entry = bytes_of_operator_entry(setup) + (setup.half_error > 0.0 ? bytes_of_entry(setup.half_error) : 0.0);
+  return factor_bytes(setup, matrix, layout, layout.is_interface) + entry * 0.5 * n_b * n_b + vectors;
 }
 
 }  // namespace dygita

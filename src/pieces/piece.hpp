@@ -129,6 +129,12 @@ class Piece {
   virtual void wake() {}
   // Velocities at the rows for interface data q.
   virtual void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) = 0;
+  // The same, what has changed since interface_velocity was last called in half precision, where the piece has its
+  // operator so (manual, eq. A6). An increment ends with a call of interface_velocity.
+  virtual bool has_operator_in_half() const { return false; }
+  virtual void interface_velocity_in_half(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+    interface_velocity(q, velocity);
+  }
   // Roughly how they change with interface data that change by q: as much as a stiffness k at each row would have it,
   // or better (manual, eq. A5).
   virtual bool has_rough_operator() const { return false; }

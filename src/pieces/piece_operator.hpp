@@ -28,7 +28,8 @@ struct PieceSetup {
   std::string what;                                   // "substructure 'rod' in step 'shock'", for messages
   Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
   double storage_error = 0x1p-26;                     // in single precision, of entries of the factor; H: a sixteenth
-  double rough_error = 0.0;                           // of entries of the rough H beside it; 0: there is none
+  double half_error = 0.0, rough_error = 0.0;         // of entries of the H in half precision and of the rough one
+                                                      // beside it; 0: there is none
   double n_products = std::numeric_limits<double>::infinity();  // with H, that the step is expected to take
   double tuned_speed = 0.0;        // m/s, of the waves that an explicit piece's mass is tuned to; 0: lumped
   std::vector<char> keeps_lumped;  // then: nodes whose cells stay lumped

@@ -22,6 +22,7 @@
 #include "pieces/longest_step.hpp"
 #include "pieces/row_stiffness.hpp"
 #include "step/distant_piece.hpp"
+#include "step/joint_solves.hpp"
 #include "step/shared_operators.hpp"
 
 namespace dygita {
@@ -151,6 +152,8 @@ void tune_explicitly(const StepModel& model, int piece, const AbsorbingImpedance
 
 std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
   constexpr double rough_error = 5e-3;       // of H in inner iterations: near entries remain
+  constexpr double half_error = 0x1p-16;     // of H for changes within an increment
+  constexpr size_t fits_a_cache = 1000;      // rows of an H that is read faster than it is worth keeping twice
   constexpr double usual_iterations = 40.0;  // of an increment of a static step
   const int n = model.cut->n_pieces();
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
@@ -180,6 +183,9 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     if (model.scheme.is_static) setup.n_products = usual_iterations * model.step->increments;
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.
     if (model.has_inner_iterations()) setup.rough_error = rough_error;
+    // Runs side by side read H once for all.
+    const bool is_long = setup.rows.size() > fits_a_cache && setup.precision == Precision::single_precision;
+    if (model.has_inner_iterations() && is_long && !joint::is_joint()) setup.half_error = half_error;
     setup.storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
   };
   parallel_for(static_cast<int>(model.here.size()), set_up);

@@ -88,8 +88,8 @@ const ImplicitPiece* same_implicit(const PieceSetup& setup, const Piece& earlier
   if (!piece || (!piece->condensation() && !dynamic_cast<const FullPiece*>(piece))) return nullptr;
   const PieceSetup& own = piece->op().setup();
   const bool is_made_alike = own.scheme.is_static == setup.scheme.is_static && own.scheme.dt == setup.scheme.dt &&
-                             own.storage_error == setup.storage_error && own.rough_error == setup.rough_error &&
-                             are_same(own.rows, setup.rows);
+                             own.storage_error == setup.storage_error && own.half_error == setup.half_error &&
+                             own.rough_error == setup.rough_error && are_same(own.rows, setup.rows);
   if (!is_made_alike) return nullptr;
   const auto turn = turn_between(own, piece->op().unknowns(), setup);
   return turn && turn->isIdentity(0.0) ? piece : nullptr;

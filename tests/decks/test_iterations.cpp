@@ -92,6 +92,31 @@ TEST(Iterations, a_tuned_mass_costs_little_more) {
   EXPECT_LE(run.result->mean_iterations, 5.0);
 }
 
+// Blocks that slide and rub with 1083 unknowns on their faces and long steps: what an iteration changes is answered in
+// half precision, which double precision does not have.
+TEST(Iterations, half_precision_within_an_increment_changes_nothing_but_digits) {
+  const std::string blocks = R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, z }, size = { 36*mm, 36*mm, 12*mm }, cells = { 18, 18, 3 } } } end
+local lower, upper = block("lower", 0), block("upper", 12*mm)
+local seat = interface.contact{ name = "seat", between = { lower:face "zmax", upper:face "zmin" }, friction = 0.3 }
+local held = support.fixed{ name = "held", on = lower:face "zmin" }
+local press = load.pressure{ on = upper:face "zmax", history = 20*MPa }
+local tighten = step.static{ name = "tighten", increments = 2, loads = { press } }
+local push = history.half_sine{ peak = 8*kN, duration = 0.2*ms }
+local shock = step.dynamic{ name = "shock", after = tighten, duration = 0.3*ms, dt = 10*us, loads = { press, load.force{ on = upper:face "xmin", x = push } } }
+problem{ name = "blocks", substructures = { lower, upper }, interfaces = { seat }, supports = { held }, steps = { tighten, shock },
+  outputs = { output.history{ name = "top", on = upper:face "zmax", quantity = "velocity", direction = { 1, 0, 0 } }, output.joint{ name = "joint", on = seat } } }:run{}
+)";
+  const DeckRun half = run_text(blocks, {}, 0, "latin{ integration = 'implicit' }").at(0),
+                whole = run_text(blocks, {}, 0, "latin{ integration = 'implicit', precision = 'double' }").at(0);
+  EXPECT_TRUE(half.result->converged);
+  EXPECT_GT(half.result->mean_iterations, 5.0);  // of which those after the first two are in half precision
+  EXPECT_LT(half.result->mean_iterations, 1.2 * whole.result->mean_iterations);
+  EXPECT_LT(difference(whole.column("top", "velocity"), half.column("top", "velocity")), 2e-5);
+  EXPECT_GT(difference(whole.column("top", "velocity"), half.column("top", "velocity")), 0.0);
+}
+
 TEST(Iterations, any_number_of_threads_gives_the_same_bits) {
   for (const Settings& settings :
        {Settings{{"cells", "8"}, {"cfl", "5"}, {"steps", "20"}}, Settings{{"cells", "8"}, {"static", "1"}}}) {

@@ -232,7 +232,7 @@ TEST(SpdInverse, has_a_rough_form_of_few_bytes) {
     if (i > 0) matrix(i, i - 1) = matrix(i - 1, i) = -1.0;
   }
   const SpdInverse plain(matrix, SpdInverse::Form::matrix, {}, "matrix"),
-      both(matrix, SpdInverse::Form::matrix, {Precision::double_precision, 0.0, error}, "matrix");
+      both(matrix, SpdInverse::Form::matrix, {.rough_error = error}, "matrix");
   EXPECT_FALSE(plain.has_rough());
   ASSERT_TRUE(both.has_rough());
   EXPECT_LT(both.bytes() - plain.bytes(), 0.1 * plain.bytes());
@@ -247,6 +247,28 @@ TEST(SpdInverse, has_a_rough_form_of_few_bytes) {
       worst = std::max(worst, std::abs(y[i] - exact(i, j)) / std::sqrt(exact(i, i) * exact(j, j)));
   }
   EXPECT_LE(worst, 1.001 * error);
+  EXPECT_GT(worst, 0.01 * error);
+}
+
+TEST(SpdInverse, has_a_form_in_half_precision) {
+  const int n = 300;
+  const double error = 0x1p-16;
+  const Mat random = Mat::Random(n, n), matrix = random * random.transpose() + 50.0 * Mat::Identity(n, n);
+  const SpdInverse plain(matrix, SpdInverse::Form::matrix, {Precision::single_precision, 0x1p-30}, "matrix"),
+      both(matrix, SpdInverse::Form::matrix, {.precision = Precision::single_precision, .error = 0x1p-30, .half_error = error},
+           "matrix");
+  EXPECT_FALSE(plain.has_half());
+  ASSERT_TRUE(both.has_half());
+  EXPECT_LT(both.bytes() - plain.bytes(), 0.6 * plain.bytes());
+  const Mat exact = solve_dense(matrix, Mat::Identity(n, n));
+  Vec y;
+  double worst = 0.0;
+  for (int j = 0; j < n; ++j) {
+    both.multiply_in_half(Vec::Unit(n, j), y);
+    for (int i = 0; i < n; ++i)
+      worst = std::max(worst, std::abs(y[i] - exact(i, j)) / std::sqrt(exact(i, i) * exact(j, j)));
+  }
+  EXPECT_LE(worst, 1.01 * error);
   EXPECT_GT(worst, 0.01 * error);
 }
 

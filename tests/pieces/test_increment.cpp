@@ -286,6 +286,35 @@ TEST(Increment, in_single_precision_stays_close) {
   EXPECT_GT(error, 0.0);
 }
 
+// What has changed since the last whole product, to the error that its operator has; then whole again.
+TEST(Increment, answers_changes_in_half_precision) {
+  PieceCase c;
+  c.dt = increment_dt;
+  c.make();
+  c.setup.precision = Precision::single_precision;
+  const auto plain = c.piece();
+  c.setup.half_error = 0x1p-16;
+  const auto half = c.piece();
+  EXPECT_FALSE(plain->has_operator_in_half());
+  ASSERT_TRUE(half->has_operator_in_half());
+  const Points still = Points::Zero(3, c.n_nodes());
+  const Vec first = 1e3 * random_vector(c.n_rows(), 1), second = first + 1e3 * random_vector(c.n_rows(), 2);
+  Vec exact(c.n_rows()), found(c.n_rows());
+  for (Piece* piece : {static_cast<Piece*>(plain.get()), static_cast<Piece*>(half.get())}) {
+    piece->set_state(still, still, still, still);
+    piece->begin(1e3 * random_points(c.n_nodes(), 3), {}, 0.0);
+    piece->forward({&piece, 1});
+    piece->interface_velocity(first, piece == plain.get() ? exact : found);
+  }
+  EXPECT_EQ(found, exact);
+  plain->interface_velocity_in_half(second, exact);  // has no such form
+  half->interface_velocity_in_half(second, found);
+  EXPECT_LT((found - exact).norm(), 1e-4 * exact.norm());
+  EXPECT_GT((found - exact).norm(), 0.0);
+  half->interface_velocity(second, found);
+  EXPECT_EQ(found, exact);
+}
+
 // A node of a bent plate is all interface: solved in full because that costs less.
 TEST(Increment, of_a_piece_that_is_almost_all_interface_is_solved_in_full) {
   PieceCase c;
