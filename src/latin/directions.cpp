@@ -13,8 +13,11 @@ ConstantDirections::ConstantDirections(StepData& step, Stages& stages)
         return step.model.pieces[static_cast<size_t>(i)]->has_operator_in_half();
       }))) {}
 
-void ConstantDirections::begin(double /*tolerance*/) {
+void ConstantDirections::begin(double tolerance) {
   anderson_.begin();
+  tolerance_ = tolerance;
+  eta_before_ = 0.0;
+  is_near_ = is_whole_due_ = false;
   step_.at.uncorrected.resize(0);
 }
 
@@ -32,8 +35,15 @@ bool ConstantDirections::settles(const Goal& goal, const Outcome& outcome, Best&
   return true;
 }
 
-void ConstantDirections::advance(const Outcome& /*outcome*/) {
+// Whole is what comes near the tolerance, for what is left to be small, and what seems to be the last.
+void ConstantDirections::advance(const Outcome& outcome) {
+  constexpr double near = 100.0;
   const Stopwatch watch(step_.seconds.accelerate);
+  const bool comes_near = !is_near_ && outcome.eta <= near * tolerance_;
+  const double next = outcome.eta * std::min(1.0, outcome.eta / eta_before_);
+  is_whole_due_ = comes_near || (eta_before_ > 0.0 && next <= tolerance_);
+  is_near_ |= comes_near;
+  eta_before_ = outcome.eta;
   anderson_.advance(step_.own(step_.at.q), step_.own(step_.at.image));
 }
 

@@ -39,10 +39,11 @@ class ConstantDirections final : public SearchDirections {
   StepData& step_;
   Stages& stages_;
   Anderson anderson_;
-  // Changes within an increment are answered in half precision (manual, eq. A6): was the last linear stage, and is the
-  // next one to be whole?
+  // Changes within an increment are answered in half precision (manual, eq. A6): was the last linear stage, is the next
+  // one to be whole, has one been so near the tolerance?
   const bool has_half_;
-  bool is_in_half_ = false, is_whole_due_ = false;
+  bool is_in_half_ = false, is_whole_due_ = false, is_near_ = false;
+  double tolerance_ = 0.0, eta_before_ = 0.0;
 };
 
 // All pieces in one system: V and F are in balance after every iteration but the first.
