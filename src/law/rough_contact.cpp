@@ -156,7 +156,8 @@ double RoughContact::approach_after(const Trial& trial, const Increment& increme
   if (answer <= 0.0) return free;
   // Farther back than the start only against less pressure than that has.
   const double back = increment.is_static ? std::min(free, 0.0) : std::min(from, free - answer * curve_.pressure(from));
-  double high = free, low = std::min(free, back), approach = free;
+  double high = free, low = std::min(free, back);
+  double approach = from > low && from < high ? from : free;  // most increments change little
   for (int i = 0; i < most; ++i) {
     const double pressure = working_pressure(from, approach, increment);
     const double residual = approach - free + answer * pressure;
