@@ -5,13 +5,14 @@
 --     standoff |__|                    |__| standoff             standoffs bonded to the floor, which the record moves
 --        =========================================  floor
 --
--- Run        dygita run decks/verification/board_shock.lua         --set along=32 --set through=4
+-- Run        dygita run decks/verification/board_shock.lua         --set along=40 --set through=4
+--            --set alone=1 (modes of the board by itself, held rigidly under its clamps)  --set alone=2 (at its edges)
 -- See        out/board_shock/base/report.html: spectra, and the attenuation with the handbooks' rule as a line
 -- Expect     the table of manual/measured-joints.md
 -- Read next  a unit with boards: decks/electronics_box.lua
 -- Record     decks/records/synthetic_shock.csv, made by make_synthetic_shock.py beside it; `dygita srs` prints its spectrum
 
-local p = param{ along = 20, through = 2, mu = 0.3, press = 20*MPa, dt = 10*us, damping = 0.02, young = 70*GPa }
+local p = param{ along = 20, through = 2, mu = 0.3, press = 20*MPa, dt = 10*us, damping = 0.02, young = 70*GPa, alone = 0 }
 local rho, length, width, thick, grip = 2700, 100*mm, 20*mm, 3*mm, 20*mm
 local first = 22.3733 / (2*math.pi) * math.sqrt(p.young * thick^2 / 12 / rho) / length^2    -- Hz, of the clamped beam
 
@@ -20,6 +21,20 @@ local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0, de
 local n, m = math.tointeger(p.along), math.tointeger(p.through)
 local function box(name, material, origin, size, cells) return substructure{ name = name, material = material, mesh = mesh.box{ origin = origin, size = size, cells = cells } } end
 local grips = n // 5
+
+if p.alone > 0 then
+  local at_edges = p.alone == 2
+  local part = substructure{ name = "board", material = alloy, mesh = mesh.box{ origin = { at_edges and grip or 0, 0, 0 },
+    size = { at_edges and length or length + 2*grip, width, thick }, cells = { at_edges and n or n + 2*grips, 2, m } } }
+  local ends = support.fixed{ name = "ends", on = part:where(function(x, y, z)
+    return (at_edges or near(z, 0) or near(z, thick)) and (x < grip + 1e-7 or x > grip + length - 1e-7) end) }
+  local modes = output.modes{ name = "modes", n = 1 }
+  local result = problem{ name = "board_alone", substructures = { part }, supports = { ends }, outputs = { modes },
+    steps = { step.static{ name = "rest", loads = { load.pressure{ on = part:face "zmax", history = 1 } } } } }:run{}
+  print(("first mode (Hz): %.1f, beam %.1f"):format(result[modes].frequency[1], first))
+  return
+end
+
 local board = box("board", alloy, { 0, 0, 0 }, { length + 2*grip, width, thick }, { n + 2*grips, 2, m })
 local floor = box("floor", steel, { 0, 0, -16*mm }, { length + 2*grip, width, 6*mm }, { n + 2*grips, 2, 1 })
 local parts, joints, pressed = { floor, board }, {}, {}
