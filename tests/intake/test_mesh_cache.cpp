@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -174,6 +175,21 @@ TEST_F(MeshCacheTest, does_without_a_folder_or_a_secret) {
   setenv("XDG_STATE_HOME", "/proc/dygita", 1);
   expect_same_bits(meshed, StepAssembly(options()));
   EXPECT_FALSE(fs::exists(cache()));
+}
+
+// An entry of holes is not even read, which would show in the time of its last use.
+TEST_F(MeshCacheTest, reads_no_file_of_holes) {
+  const StepAssembly meshed(options());
+  const fs::path entry = entries().front();
+  const auto long_ago = fs::last_write_time(entry) - std::chrono::hours(1);
+  write(entry, bytes_in(entry) + "x");
+  fs::last_write_time(entry, long_ago);
+  EXPECT_EQ(found(options()), "");
+  EXPECT_GT(fs::last_write_time(entry), long_ago);  // read, and refused
+  fs::resize_file(entry, 90'000'000);
+  fs::last_write_time(entry, long_ago);
+  EXPECT_EQ(found(options()), "");
+  EXPECT_EQ(fs::last_write_time(entry), long_ago);
 }
 
 TEST_F(MeshCacheTest, has_an_end) {
