@@ -19,6 +19,7 @@
 #endif
 #endif
 #ifdef DYGITA_ADDRESS_SANITIZER
+#include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #endif
 
@@ -35,7 +36,12 @@ class Stack {
     if (at_ == MAP_FAILED) throw std::bad_alloc();
     mprotect(at_, static_cast<size_t>(sysconf(_SC_PAGESIZE)), PROT_NONE);
   }
-  ~Stack() { munmap(at_, size); }
+  ~Stack() {
+#ifdef DYGITA_ADDRESS_SANITIZER
+    __asan_unpoison_memory_region(at_, size);  // of calls that never return: somebody else may be given these pages
+#endif
+    munmap(at_, size);
+  }
   Stack(const Stack&) = delete;
   Stack& operator=(const Stack&) = delete;
   void* at() const { return at_; }
