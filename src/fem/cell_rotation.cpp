@@ -2,8 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fem/cell_loop.hpp"
 #include "numerics/dense.hpp"
@@ -69,17 +69,19 @@ CellExtreme rotation_of_points(const Mesh& mesh, const Points& displacement) {
 
 }  // namespace
 
-CellDeformation largest_deformation(const Mesh& mesh, const Points& displacement) {
+CellDeformation largest_deformation(const Mesh& mesh, const Points& displacement, double least) {
   if (!mesh.has_cells()) return {rotation_of_points(mesh, displacement), {}};
   CellDeformation worst;
   for (const CellBlock& block : mesh.blocks)
     with_cell(block.type, [&](auto cell) {
       using Cell = decltype(cell);
       constexpr int n = Cell::n_nodes;
-      Vec angle(block.n_cells()), strain(block.n_cells());
+      Vec angle = Vec::Zero(block.n_cells()), strain = angle;
       const auto compute = [&](int i) {
         const int* nodes = block.cell(i);
-        const Mat3 gradient = mean_gradient<Cell>(gather<n>(mesh.nodes, nodes), gather<n>(displacement, nodes));
+        const auto moved = gather<n>(displacement, nodes);
+        if ((moved.rowwise().maxCoeff() - moved.rowwise().minCoeff()).norm() < least) return;
+        const Mat3 gradient = mean_gradient<Cell>(gather<n>(mesh.nodes, nodes), moved);
         angle[i] = angle_of(gradient);
         strain[i] = principal_strain_of(gradient);
       };
@@ -95,19 +97,27 @@ CellDeformation largest_deformation(const Mesh& mesh, const Points& displacement
   return worst;
 }
 
-double smallest_cell(const Mesh& mesh) {
+double gradient_length(const Mesh& mesh) {
   if (!mesh.has_cells()) return 0.0;
-  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
   for (const CellBlock& block : mesh.blocks)
-    for (int i = 0; i < block.n_cells(); ++i) {
-      Vec3 low = mesh.nodes.col(block.cell(i)[0]), high = low;
-      for (int a = 1; a < nodes_per_cell(block.type); ++a) {
-        low = low.cwiseMin(mesh.nodes.col(block.cell(i)[a]));
-        high = high.cwiseMax(mesh.nodes.col(block.cell(i)[a]));
+    with_cell(block.type, [&](auto cell) {
+      using Cell = decltype(cell);
+      constexpr int n = Cell::n_nodes;
+      const auto& shapes = Cell::shapes();
+      for (int i = 0; i < block.n_cells(); ++i) {
+        const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
+        Eigen::Matrix<double, n, 3> gradients = Eigen::Matrix<double, n, 3>::Zero();  // of the shape functions
+        double volume = 0.0;
+        for (int k = 0; k < shapes.n_points; ++k) {
+          const auto point = point_in_cell(shapes, x, k);
+          gradients += point.volume * point.gradient;
+          volume += point.volume;
+        }
+        largest = std::max(largest, gradients.rowwise().norm().sum() / volume);
       }
-      smallest = std::min(smallest, (high - low).minCoeff());
-    }
-  return smallest;
+    });
+  return largest > 0.0 ? 1.0 / largest : 0.0;
 }
 
 }  // namespace dygita

@@ -17,10 +17,11 @@ struct CellDeformation {
 };
 
 // Of the mean over a cell of the gradient of u; of a body without cells the rotation of its places as a whole.
-// displacement: 3 x n_nodes, m.
-CellDeformation largest_deformation(const Mesh& mesh, const Points& displacement);
+// displacement: 3 x n_nodes, m. least: m, cells whose nodes all move within so much of each other are left out.
+CellDeformation largest_deformation(const Mesh& mesh, const Points& displacement, double least = 0.0);
 
-// m, length of the shortest edge of the box around a cell, of all cells; 0 where there are none.
-double smallest_cell(const Mesh& mesh);
+// m: the gradient in a cell is no more than what the displacements of its nodes differ by, over this length; of all
+// cells, 0 where there are none. With u = sum N_a u_a: |grad u| <= sum |grad N_a| max |u_a - u_b|.
+double gradient_length(const Mesh& mesh);
 
 }  // namespace dygita

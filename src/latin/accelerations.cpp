@@ -3,6 +3,7 @@
 
 #include "latin/coarse_correction.hpp"
 #include "latin/iteration.hpp"
+#include "step/joint_solves.hpp"
 
 namespace dygita {
 
@@ -31,17 +32,11 @@ class InnerIterations final : public Strategy {
   explicit InnerIterations(StepData& step) : step_(step) {}
   void after_local_stage() override {
     Iterate& at = step_.at;
-    const NearUnknowns& near = step_.model.near;
     for (int n = 0; n < step_.settings.n_inner; ++n) {
       {
         const Stopwatch watch(step_.seconds.interface);
         velocity_.resize(at.velocity.size());
-        step_.loops.for_each([&](Piece& piece, int i) {
-          const int first = near.start(i), n_rows = piece.n_rows();
-          auto velocity = velocity_.segment(first, n_rows);
-          piece.rough_change(at.image.segment(first, n_rows) - at.q.segment(first, n_rows), velocity);
-          velocity += at.velocity.segment(first, n_rows);
-        });
+        answer();
       }
       const Stopwatch watch(step_.seconds.local);
       step_.model.near.exchange({velocity_.data()});
@@ -51,18 +46,38 @@ class InnerIterations final : public Strategy {
   }
 
  private:
+  void answer();
+
   StepData& step_;
   Vec velocity_, image_;
 };
+
+void InnerIterations::answer() {
+  const Iterate& at = step_.at;
+  if (joint::is_joint()) {  // all pieces are here
+    joint::rough_changes(step_.model, at.image - at.q, velocity_);
+    velocity_ += at.velocity;
+    return;
+  }
+  step_.loops.for_each([&](Piece& piece, int i) {
+    const int first = step_.model.near.start(i), n_rows = piece.n_rows();
+    auto velocity = velocity_.segment(first, n_rows);
+    piece.rough_change(at.image.segment(first, n_rows) - at.q.segment(first, n_rows), velocity);
+    velocity += at.velocity.segment(first, n_rows);
+  });
+}
 
 }  // namespace
 
 std::unique_ptr<Strategy> balance_ties(Iteration& iteration, const Vec& k) {
   StepData& step = iteration.step();
   if (!step.settings.has_correction) return nullptr;
-  CoarseCorrection coarse(step.model, k);
-  if (coarse.is_empty()) return nullptr;
-  return std::make_unique<BalanceTies>(step, std::move(coarse));
+  std::shared_ptr<const CoarseCorrection>* const shared = step.files.coarse;
+  std::shared_ptr<const CoarseCorrection> coarse = shared ? *shared : nullptr;
+  if (!coarse || !coarse->serves(step.model, k)) coarse = std::make_shared<const CoarseCorrection>(step.model, k);
+  if (shared && !*shared) *shared = coarse;
+  if (coarse->is_empty()) return nullptr;
+  return std::make_unique<BalanceTies>(step, *coarse);
 }
 
 std::unique_ptr<Strategy> iterate_roughly(Iteration& iteration) {

@@ -1,6 +1,7 @@
 #include "latin/coarse_correction.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -156,8 +157,24 @@ Mat CoarseCorrection::respond(const Piece& piece, int offset, Local& local) {
   return 0.5 * (stiffness + stiffness.transpose());
 }
 
-CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
-  const std::vector<Side> sides = find_sides(model, k);
+namespace {
+
+std::vector<const void*> operators_of(const StepModel& model) {
+  std::vector<const void*> operators;
+  for (const auto& piece : model.pieces) operators.push_back(piece->shared_key());
+  return operators;
+}
+
+}  // namespace
+
+bool CoarseCorrection::serves(const StepModel& model, const Vec& k) const {
+  return ranks::is_alone() && k_ == k && operators_ == operators_of(model) &&
+         std::find(operators_.begin(), operators_.end(), nullptr) == operators_.end() && sides_ == find_sides(model, k);
+}
+
+CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k)
+    : sides_(find_sides(model, k)), k_(k), operators_(operators_of(model)) {
+  const std::vector<Side>& sides = sides_;
   if (!ranks::any(!sides.empty())) return;
   const int n = static_cast<int>(model.pieces.size());
   pieces_.resize(n);

@@ -16,6 +16,9 @@ class CoarseCorrection {
   // operator on its tied unknowns, and a dense matrix of 6 unknowns per substructure.
   CoarseCorrection(const StepModel& model, const Vec& k);
   bool is_empty() const { return pieces_.empty(); }
+  // Is it, made of another run's step, what this one would make? Of pieces that share the operators of that one's,
+  // which are still there (step/shared_operators.hpp).
+  bool serves(const StepModel& model, const Vec& k) const;
   // Changes data q and the velocities that the linear stage answered them with, which remain its answer, of the pieces
   // that are here. Changes nothing where the forces of the ties are in balance. Collective.
   void correct(Vec& q, Vec& velocity);
@@ -36,6 +39,7 @@ class CoarseCorrection {
     int unknown, port, point, direction;
     double share;  // of the side's k
     bool balances;
+    bool operator==(const Tied&) const = default;
   };
   using Side = std::vector<Tied>;
   static std::vector<Side> find_sides(const StepModel& model, const Vec& k);
@@ -46,6 +50,10 @@ class CoarseCorrection {
   void complete_motions(const Cut& cut);
   void complete_shares(const StepModel& model, std::vector<Mat>& share) const;
 
+  // What it is made of: sides, search directions, operators of the pieces.
+  std::vector<Side> sides_;
+  Vec k_;
+  std::vector<const void*> operators_;
   std::vector<Local> pieces_;
   std::vector<int> here_;
   std::vector<int> first_;  // of each piece's amounts in those of all

@@ -24,6 +24,8 @@ struct Iterate {
   bool is_answered = false;  // before an iteration: V is the answer to q
 };
 
+class CoarseCorrection;
+
 // What a run reads and writes besides its own step.
 struct RunFiles {
   State& state;
@@ -33,6 +35,7 @@ struct RunFiles {
   Trail* trail;  // null: none
   // Of a static step that is solved piece by piece, its pieces for one system; empty: it is not to change its way.
   std::function<Pieces(const StepModel&)> pieces_in_one = nullptr;
+  std::shared_ptr<const CoarseCorrection>* coarse = nullptr;  // of the step, of runs that share it; null: its own
 };
 
 // What an iteration is to reach, with how many rounds at most, and velocities beyond which it is lost (0: none).

@@ -6,6 +6,7 @@
 #include "base/aside.hpp"
 #include "base/progress.hpp"
 #include "base/task.hpp"
+#include "interfaces/whole_parts.hpp"
 #include "latin/search_direction.hpp"
 #include "marching/shared_trail.hpp"
 #include "marching/sharing.hpp"
@@ -73,7 +74,10 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
   SharedTrail shared_trail(kept_trail);
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();
-  const std::vector<Surface> surfaces = make_surfaces(problem);
+  const std::vector<Surface> surfaces = [&] {
+    const SeamsAreKnown known(setting.shared && setting.shared->are_made());
+    return make_surfaces(problem);
+  }();
   SharedOperators own;
   const bool shares = setting.shared && setting.shared->serve(problem, surfaces);
   SharedOperators& operators = shares ? *setting.shared : own;
@@ -98,6 +102,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
       const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
       fix_search_directions(model, k);
       RunFiles files{state, observer, start_fields, *kept, trail};
+      if (shares) files.coarse = &operators.coarse_of_step(figures.steps.size());
       if (may_go_in_one(problem, model))
         files.pieces_in_one = [&bodies](const StepModel& of) { return make_assembled_pieces(of, bodies); };
       StepRun run(settings, model, k, files);

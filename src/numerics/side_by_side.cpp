@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "numerics/packed_factor.hpp"
+#include "numerics/spd_inverse.hpp"
 
 namespace dygita {
 
@@ -126,6 +126,18 @@ void SymmetricOperator::multiply_together(std::span<const double* const> x, std:
     flush(left, n_padded * row, out);
   }
   separate(out, n_, y);
+}
+
+void SpdInverse::substitute_together(std::span<const double* const> x, std::span<double* const> y) const {
+  const auto n_padded = static_cast<size_t>(n_ + Panels::height);
+  double* all = room_of(all_rows, n_padded);
+  interleave(x, n_, all);
+  std::fill(all + at(n_), all + n_padded * row, 0.0);
+  for (size_t p = 0; p < factor_.size(); ++p) factor_.forward(p, all + p * Panels::width * row, row / 8);
+  // What forward substitution left behind the last row is not part of the sums.
+  std::fill(all + at(n_), all + n_padded * row, 0.0);
+  for (size_t p = factor_.size(); p-- > 0;) factor_.backward(p, all + p * Panels::width * row, row / 8);
+  separate(all, n_, y);
 }
 
 }  // namespace dygita

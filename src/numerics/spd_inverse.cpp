@@ -89,21 +89,41 @@ void SpdInverse::multiply(const Vec& x, Vec& y) const {
   y = Eigen::Map<const Vec>(work.data(), n_);
 }
 
-// Side by side sixteen vectors take as long as about four by themselves.
-void SpdInverse::multiply(std::span<const double* const> x, std::span<double* const> y) const {
+namespace {
+
+// all(x, y) of up to sixteen vectors, which side by side take as long as about four by themselves; fewer by one(x, y).
+template <class Together, class One>
+void by_sixteen(std::span<const double* const> x, std::span<double* const> y, int length, Together&& all, One&& one) {
   constexpr size_t few = 4, most = panel::together;
   for (size_t first = 0; first < x.size(); first += most) {
     const size_t n = std::min(most, x.size() - first);
-    if (n >= few && form_ == Form::matrix) {
-      matrix_.multiply_together(x.subspan(first, n), y.subspan(first, n));
+    if (n >= few) {
+      all(x.subspan(first, n), y.subspan(first, n));
       continue;
     }
-    Vec one;
+    Vec answer;
     for (size_t i = first; i < first + n; ++i) {
-      multiply(Eigen::Map<const Vec>(x[i], n_), one);
-      std::copy_n(one.data(), n_, y[i]);
+      one(Vec(Eigen::Map<const Vec>(x[i], length)), answer);
+      std::copy_n(answer.data(), length, y[i]);
     }
   }
+}
+
+}  // namespace
+
+void SpdInverse::multiply(std::span<const double* const> x, std::span<double* const> y) const {
+  by_sixteen(
+      x, y, n_,
+      [this](auto from, auto to) {
+        form_ == Form::matrix ? matrix_.multiply_together(from, to) : substitute_together(from, to);
+      },
+      [this](const Vec& from, Vec& to) { multiply(from, to); });
+}
+
+void SpdInverse::multiply_roughly(std::span<const double* const> x, std::span<double* const> y) const {
+  by_sixteen(
+      x, y, n_, [this](auto from, auto to) { rough_.multiply_together(from, to); },
+      [this](const Vec& from, Vec& to) { multiply_roughly(from, to); });
 }
 
 Mat SpdInverse::unpacked_factor() const {

@@ -49,6 +49,7 @@ class SpdInverse {
   void multiply_in_half(const Vec& x, Vec& y) const { half_.multiply(x, y); }
   bool has_rough() const { return rough_.size() > 0; }
   void multiply_roughly(const Vec& x, Vec& y) const { rough_.multiply(x, y); }
+  void multiply_roughly(std::span<const double* const> x, std::span<double* const> y) const;
   // A^-1 X of many columns, by dense algebra.
   Mat times(Mat x) const;
   // A^-1, its lower triangle.
@@ -57,6 +58,8 @@ class SpdInverse {
 
  private:
   Mat unpacked_factor() const;
+  // By the factor, of up to 16 vectors, side by side.
+  void substitute_together(std::span<const double* const> x, std::span<double* const> y) const;
 
   int n_ = 0;
   Form form_;

@@ -144,6 +144,7 @@ void CondensedPiece::prepare(double quiet) {
   const bool is_quiet =
       quiet_ > 0.0 && op_.scheme().dt * work_.x.cwiseAbs2().cwiseQuotient(op_.mass().lumped()).sum() <= quiet_;
   is_moved_ = !is_quiet;
+  if (solves_for_change()) v_rows_ = op_.at_rows(work_.v_old);
 }
 
 void CondensedPiece::take_forward() {
@@ -199,7 +200,7 @@ const SpdInverse* CondensedPiece::to_multiply(Eigen::Ref<const Vec> q, Eigen::Re
   if (!is_moved_) {
     const double change = (q - state_.q).cwiseAbs2().cwiseQuotient(k_).sum();
     if (change <= quiet_) {
-      for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(work_.v_old);
+      velocity = v_rows_;
       return nullptr;
     }
     wake();
@@ -221,7 +222,7 @@ void CondensedPiece::take_product(Eigen::Ref<Vec> velocity) const {
   const int n_i = condensation_.factor->n_interior();
   for (int i = 0; i < n_rows(); ++i) {
     const Trace t = traces[i];
-    velocity[i] = for_change ? t.of(work_.v_old) : 0.0;
+    velocity[i] = for_change ? v_rows_[i] : 0.0;
     for (int a = 0; a < t.n; ++a) velocity[i] += t.value[a] * dv_b_[t.at[a] - n_i];
     if (held) velocity[i] += (*held)[i];
   }
@@ -250,22 +251,34 @@ void CondensedPiece::interface_velocity_in_half(Eigen::Ref<const Vec> q, Eigen::
   take_product(velocity);
 }
 
-void CondensedPiece::rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const {
-  if (!h_->has_rough()) return Piece::rough_change(q, velocity);
+const SpdInverse* CondensedPiece::to_multiply_roughly(const Vec& change, Vec& rhs) const {
+  if (!h_->has_rough()) return nullptr;
   const Traces& traces = op_.traces();
   const int n_i = condensation_.factor->n_interior();
-  thread_local Vec rhs, answer;
   rhs.setZero(h_->size());
   for (int i = 0; i < n_rows(); ++i) {
     const Trace t = traces[i];
-    for (int a = 0; a < t.n; ++a) rhs[t.at[a] - n_i] += t.value[a] * q[i];
+    for (int a = 0; a < t.n; ++a) rhs[t.at[a] - n_i] += t.value[a] * change[i];
   }
-  h_->multiply_roughly(rhs, answer);
+  return h_.get();
+}
+
+void CondensedPiece::take_rough_product(const Vec& answer, Eigen::Ref<Vec> velocity) const {
+  const Traces& traces = op_.traces();
+  const int n_i = condensation_.factor->n_interior();
   for (int i = 0; i < n_rows(); ++i) {
     const Trace t = traces[i];
     velocity[i] = 0.0;
     for (int a = 0; a < t.n; ++a) velocity[i] += t.value[a] * answer[t.at[a] - n_i];
   }
+}
+
+void CondensedPiece::rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const {
+  thread_local Vec rhs, answer;
+  const SpdInverse* const h = to_multiply_roughly(q, rhs);
+  if (!h) return Piece::rough_change(q, velocity);
+  h->multiply_roughly(rhs, answer);
+  take_rough_product(answer, velocity);
 }
 
 bool CondensedPiece::find_velocity() {

@@ -57,6 +57,9 @@ class CondensedPiece final : public ImplicitPiece {
   const SpdInverse* to_multiply(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity, Vec& rhs);
   Vec& product() { return dv_b_; }
   void take_product(Eigen::Ref<Vec> velocity) const;
+  // The same of rough_change: rhs of the rough operator, and what its answer says. Null: there is no rough operator.
+  const SpdInverse* to_multiply_roughly(const Vec& change, Vec& rhs) const;
+  void take_rough_product(const Vec& answer, Eigen::Ref<Vec> velocity) const;
   const Factor& factor() const { return *condensation_.factor; }
 
   bool has_rough_operator() const override { return h_ && h_->has_rough(); }
@@ -75,6 +78,7 @@ class CondensedPiece final : public ImplicitPiece {
   std::shared_ptr<const SpdInverse> h_;
   // Of the increment at hand: the condensed right-hand side, and the interface's answer.
   Vec b_, dv_b_;
+  Vec v_rows_;  // V0 at the rows, where the piece solves for the change
   Vec whole_rhs_, whole_;  // what H itself was last multiplied with, and its answer; empty: H has no form in half precision
   double quiet_ = 0.0;
   bool is_forward_due_ = false, is_moved_ = false;  // the forward solve is put off; the interfaces have moved

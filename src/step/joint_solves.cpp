@@ -31,16 +31,21 @@ void for_each_sixteen(const std::vector<std::pair<const Operator*, Item>>& items
                [&](int i) { f(*groups[static_cast<size_t>(i)].first, groups[static_cast<size_t>(i)].second); });
 }
 
-// The increment's last iterations come first, since all wait for who has not converged.
-constexpr int for_iterations = 0, for_increments = 1;
+// What an iteration asks for last comes first, and the increment's last iterations before its end, since all wait for
+// who has not converged.
+constexpr int for_inner_iterations = 0, for_iterations = 1, for_increments = 2;
 
 struct Products final : Asked {
   struct Product {
-    CondensedPiece* piece;
     Vec rhs;
+    Vec* answer;
   };
-  Products() : Asked(for_iterations) {}
+  explicit Products(bool are_rough) : Asked(are_rough ? for_inner_iterations : for_iterations) {}
   void serve(std::span<Asked* const> all) override;
+  void add(const SpdInverse* h, Vec rhs, Vec& answer) {
+    answer.resize(h->size());
+    products.emplace_back(h, Product{std::move(rhs), &answer});
+  }
 
   std::vector<std::pair<const SpdInverse*, Product>> products;
 };
@@ -49,15 +54,14 @@ void Products::serve(std::span<Asked* const> all) {
   std::vector<std::pair<const SpdInverse*, const Product*>> items;
   for (Asked* const one : all)
     for (const auto& [h, product] : static_cast<Products*>(one)->products) items.emplace_back(h, &product);
-  for_each_sixteen(items, [](const SpdInverse& h, const std::vector<const Product*>& own) {
+  for_each_sixteen(items, [this](const SpdInverse& h, const std::vector<const Product*>& own) {
     std::vector<const double*> from;
     std::vector<double*> to;
     for (const Product* const product : own) {
-      product->piece->product().resize(h.size());
       from.push_back(product->rhs.data());
-      to.push_back(product->piece->product().data());
+      to.push_back(product->answer->data());
     }
-    h.multiply(from, to);
+    urgency == for_inner_iterations ? h.multiply_roughly(from, to) : h.multiply(from, to);
   });
 }
 
@@ -121,7 +125,7 @@ void backward(StepModel& model) {
 }
 
 void interface_velocities(StepModel& model, const Vec& q, Vec& velocity) {
-  Products all;
+  Products all(false);
   const auto of_piece = [&](auto& vector, int i) {
     return vector.segment(model.near.start(i), model.pieces[static_cast<size_t>(i)]->n_rows());
   };
@@ -133,14 +137,35 @@ void interface_velocities(StepModel& model, const Vec& q, Vec& velocity) {
       piece.interface_velocity(of_piece(q, i), of_piece(velocity, i));
       continue;
     }
-    Products::Product product{condensed, {}};
-    const SpdInverse* const h = condensed->to_multiply(of_piece(q, i), of_piece(velocity, i), product.rhs);
+    Vec rhs;
+    const SpdInverse* const h = condensed->to_multiply(of_piece(q, i), of_piece(velocity, i), rhs);
     if (!h) continue;
     asking.push_back(i);
-    all.products.emplace_back(h, std::move(product));
+    all.add(h, std::move(rhs), condensed->product());
   }
   if (!asking.empty()) Turns::at_hand()->ask(all);
   for (const int i : asking) condensed_piece(model, i)->take_product(of_piece(velocity, i));
+}
+
+void rough_changes(StepModel& model, const Vec& change, Vec& velocity) {
+  Products all(true);
+  std::vector<std::pair<int, Vec>> asking;  // whose answers stay where they are
+  asking.reserve(model.here.size());
+  const auto of_piece = [&](auto& vector, int i) {
+    return vector.segment(model.near.start(i), model.pieces[static_cast<size_t>(i)]->n_rows());
+  };
+  for (const int i : model.here) {
+    CondensedPiece* const condensed = condensed_piece(model, i);
+    Vec rhs;
+    const SpdInverse* const h = condensed ? condensed->to_multiply_roughly(of_piece(change, i), rhs) : nullptr;
+    if (!h) {
+      model.pieces[static_cast<size_t>(i)]->rough_change(of_piece(change, i), of_piece(velocity, i));
+      continue;
+    }
+    all.add(h, std::move(rhs), asking.emplace_back(i, Vec()).second);
+  }
+  if (!asking.empty()) Turns::at_hand()->ask(all);
+  for (const auto& [i, answer] : asking) condensed_piece(model, i)->take_rough_product(answer, of_piece(velocity, i));
 }
 
 }  // namespace joint

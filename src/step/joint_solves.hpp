@@ -17,6 +17,8 @@ inline bool is_joint() { return Turns::at_hand() != nullptr; }
 void forward(StepModel& model);
 void backward(StepModel& model);
 void interface_velocities(StepModel& model, const Vec& q, Vec& velocity);
+// Roughly how the velocities change with data that change by so much (Piece::rough_change).
+void rough_changes(StepModel& model, const Vec& change, Vec& velocity);
 
 }  // namespace joint
 

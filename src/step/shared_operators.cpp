@@ -54,6 +54,7 @@ void SharedOperators::make_for(const Problem& problem, const std::vector<Surface
   bodies_ = make_bodies(problem, surfaces, *cut_);
   massless_ = massless_of(problem, surfaces);
   steps_.resize(problem.steps.size());
+  coarse_.resize(problem.steps.size());
 }
 
 bool SharedOperators::serve(const Problem& problem, const std::vector<Surface>& surfaces) const {
@@ -62,6 +63,11 @@ bool SharedOperators::serve(const Problem& problem, const std::vector<Surface>& 
 
 const StepOperators* SharedOperators::of_step(size_t i_step) const {
   return i_step < steps_.size() && !steps_[i_step].pieces.empty() ? &steps_[i_step] : nullptr;
+}
+
+std::shared_ptr<const CoarseCorrection>& SharedOperators::coarse_of_step(size_t i_step) {
+  if (!of_step(i_step)) coarse_[i_step].reset();
+  return coarse_[i_step];
 }
 
 bool SharedOperators::have_all() const {

@@ -11,6 +11,7 @@
 namespace dygita {
 
 struct ExplicitOperator;
+class CoarseCorrection;
 
 // N/m, of the laws at each port that are springs: zero elsewhere. Those that are springs under pressure alone are taken
 // where rough faces are pressed at all. Static steps, whose search directions follow them; else empty.
@@ -37,6 +38,8 @@ class SharedOperators {
   const std::vector<Body>& bodies() const { return bodies_; }
   // Null: there is nothing to take over.
   const StepOperators* of_step(size_t i_step) const;
+  // What the first run has made of them (latin/coarse_correction.hpp); forgotten where they are not kept.
+  std::shared_ptr<const CoarseCorrection>& coarse_of_step(size_t i_step);
   // Has the first run left all that others need: pieces of every step, but for those that each makes and gives up?
   bool have_all() const;
   // Takes the pieces of a step that has come to its end, unless it has some, they are solved in one system or there is
@@ -48,6 +51,7 @@ class SharedOperators {
   std::vector<Body> bodies_;
   std::vector<char> massless_;  // may mass move from the nodes of each surface? Empty: none does
   std::vector<StepOperators> steps_;
+  std::vector<std::shared_ptr<const CoarseCorrection>> coarse_;
 };
 
 // Do operators (bytes) that are kept leave twice as much for those of other steps and for what else a run takes?

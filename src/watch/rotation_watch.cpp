@@ -24,10 +24,10 @@ void RotationWatch::begin_step(const Instant& start) {
   cut_ = start.model.cut;
   pieces_.resize(static_cast<size_t>(cut_->n_pieces()));
   for (int i = 0; i < cut_->n_pieces(); ++i)
-    smallest_cell_.push_back(cut_->is_here(i) ? smallest_cell(*cut_->piece(i).body->mesh) : 0.0);
+    smallest_cell_.push_back(cut_->is_here(i) ? gradient_length(*cut_->piece(i).body->mesh) : 0.0);
 }
 
-// Cells neither turn nor stretch by more than displacements differ over the smallest of them.
+// Where displacements differ by too little for any gradient that would be noted, none is computed.
 void RotationWatch::accept(const Instant& instant) {
   if (!shows_motion(instant)) return;
   const int now = static_cast<int>(moments_.size());
@@ -39,9 +39,10 @@ void RotationWatch::accept(const Instant& instant) {
     Findings& worst = pieces_[static_cast<size_t>(i)];
     const double gradient = std::min(std::max(1.0, worst.turned.value / allowed) * std::tan(allowed),
                                      std::max(limit::strain, worst.strained.value));
-    if (range.norm() < gradient * smallest_cell_[static_cast<size_t>(i)]) continue;
+    const double least = gradient * smallest_cell_[static_cast<size_t>(i)];
+    if (range.norm() < least) continue;
     const Substructure& body = *cut_->piece(i).body;
-    const CellDeformation found = largest_deformation(*body.mesh, displacement);
+    const CellDeformation found = largest_deformation(*body.mesh, displacement, least);
     const auto note = [&](const CellExtreme& now_is, double most, Finding& finding) {
       if (!(now_is.value > finding.value)) return;
       const bool is_first = finding.first < 0 && now_is.value > most;

@@ -1,6 +1,7 @@
 // Members of an ensemble over what the first of them has made: to the bit what each is by itself.
 #include <gtest/gtest.h>
 
+#include "latin/coarse_correction.hpp"
 #include "law/law.hpp"
 #include "marching/solve.hpp"
 #include "step/blocks.hpp"
@@ -54,9 +55,9 @@ void expect_same_bits(const Member& one, const Member& other) {
 }
 
 // Three members one after the other, each once more alone. Equal: of the pieces of all steps, those of a member that
-// have their operator from the first.
+// have their operator from the first. Do they share a coarse correction of the first step?
 template <class Make>
-void expect_members_alone(Make&& make, int n_equal) {
+bool expect_members_alone(Make&& make, int n_equal) {
   SharedOperators shared;
   int i = 0;
   for (const Numbers& numbers : {Numbers{0.2, 2e7, 3e7}, Numbers{0.1, 3e7, 5e7}, Numbers{0.4, 1e7, 1e7}}) {
@@ -67,6 +68,8 @@ void expect_members_alone(Make&& make, int n_equal) {
       EXPECT_EQ(together.figures.n_equal, n_equal);
     }
   }
+  const std::shared_ptr<const CoarseCorrection> coarse = shared.coarse_of_step(0);
+  return coarse && !coarse->is_empty();
 }
 
 TEST(SharedOperators, leave_each_member_as_it_is_alone) {
@@ -85,13 +88,26 @@ TEST(SharedOperators, leave_members_their_own_velocities) {
 }
 
 TEST(SharedOperators, leave_members_with_cut_parts_as_they_are_alone) {
-  expect_members_alone(
+  const bool share_a_correction = expect_members_alone(
       [](const Numbers& numbers) {
         Problem problem = pressed_cubes(numbers, 4);
         problem.solver.pieces = 2;
         return problem;
       },
       8);
+  EXPECT_TRUE(share_a_correction);
+}
+
+// Other search directions want another correction, though the pieces share their factors.
+TEST(SharedOperators, serve_no_member_with_another_coarse_correction) {
+  Problem problem = pressed_cubes({}, 4);
+  problem.solver.pieces = 2;
+  SharedOperators shared;
+  run(problem, &shared);
+  const std::shared_ptr<const CoarseCorrection> first = shared.coarse_of_step(0);
+  problem.solver.search_direction *= 2.0;
+  expect_same_bits(run(problem, &shared), run(problem, nullptr));
+  EXPECT_EQ(shared.coarse_of_step(0), first);
 }
 
 TEST(SharedOperators, leave_members_with_moving_supports_as_they_are_alone) {

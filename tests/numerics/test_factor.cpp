@@ -248,6 +248,13 @@ TEST(SpdInverse, has_a_rough_form_of_few_bytes) {
   }
   EXPECT_LE(worst, 1.001 * error);
   EXPECT_GT(worst, 0.01 * error);
+  for (const int n_vectors : {2, 16, 21}) {
+    Mat in = Mat::Random(n, n_vectors), out = Mat::Zero(n, n_vectors), alone = out;
+    const std::vector<double*> to = columns_of(out), from = columns_of(in);
+    both.multiply_roughly(std::vector<const double*>(from.begin(), from.end()), to);
+    for (int c = 0; c < n_vectors; ++c) both.multiply_roughly(in.col(c), y), alone.col(c) = y;
+    EXPECT_LT((out - alone).norm(), 3e-7 * alone.norm()) << n_vectors;
+  }
 }
 
 TEST(SpdInverse, has_a_form_in_half_precision) {
