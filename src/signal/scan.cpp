@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signal/fitted_plane.hpp"
 #include "signal/text_table.hpp"
 
 namespace dygita {
@@ -12,32 +13,6 @@ namespace dygita {
 namespace {
 
 constexpr double farthest = 3.0;  // of the smoothing length: what is farther weighs 1e-4 at most
-
-// The height at the origin of the plane through weighted points (u, v, h) that fits best; where they lie on a line,
-// their mean.
-class Plane {
- public:
-  void add(double u, double v, double h, double weight) {
-    const double x[3] = {1.0, u, v};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) m_[i][j] += weight * x[i] * x[j];
-      b_[i] += weight * x[i] * h;
-    }
-  }
-  bool is_empty() const { return m_[0][0] == 0.0; }
-  double height(double length) const {
-    const double a = m_[1][1] - m_[0][1] * m_[0][1] / m_[0][0], b = m_[1][2] - m_[0][1] * m_[0][2] / m_[0][0],
-                 c = m_[2][2] - m_[0][2] * m_[0][2] / m_[0][0];  // spread about the middle
-    const double mean = b_[0] / m_[0][0], det = a * c - b * b;
-    constexpr double narrow = 1e-6;
-    if (!(det > narrow * std::pow(length * length * m_[0][0], 2))) return mean;
-    const double p = b_[1] - m_[0][1] * mean, q = b_[2] - m_[0][2] * mean;
-    return mean - ((c * p - b * q) * m_[0][1] + (a * q - b * p) * m_[0][2]) / (det * m_[0][0]);
-  }
-
- private:
-  double m_[3][3] = {}, b_[3] = {};
-};
 
 double factor_of(const TextTable& table, size_t i, const std::optional<double>& given, const char* word) {
   std::optional<Unit> stated;
@@ -69,24 +44,25 @@ void Scan::read(const ScanOptions& options) {
   const double factors[3] = {factor_of(table, 0, options.unit, "unit"), factor_of(table, 1, options.unit, "unit"),
                              factor_of(table, 2, options.height_unit, "height_unit")};
   for (TableRow row; table.next(row);) {
-    Point point{};
+    double numbers[3] = {};
     for (size_t i = 0; i < 3; ++i) {
       const auto value = i < row.cells.size() ? table.number(row.cells[i], row.origin) : std::nullopt;
       if (row.cells.size() != 3 || !value || !std::isfinite(*value))
         throw InputError(row.origin, fmt::format("'{}' is not two places and a height{}", row.text,
                                                  i < row.cells.size() ? doubt_of_number(row.cells[i]) : ""));
-      point[i] = factors[i] * *value;
+      numbers[i] = factors[i] * *value;
     }
-    points_.push_back(point);
+    points_.push_back({numbers[0], numbers[1], numbers[2], row.origin.line});
   }
+  refuse_two_heights(points_, file_);
 }
 
 void Scan::settle_distance(double smooth) {
-  double low[2] = {points_[0][0], points_[0][1]}, high[2] = {low[0], low[1]};
-  for (const Point& point : points_)
-    for (size_t d = 0; d < 2; ++d) {
-      low[d] = std::min(low[d], point[d]);
-      high[d] = std::max(high[d], point[d]);
+  double low[2] = {points_[0].u, points_[0].v}, high[2] = {low[0], low[1]};
+  for (const ScanPoint& point : points_)
+    for (const auto& [d, x] : {std::pair(0, point.u), std::pair(1, point.v)}) {
+      low[d] = std::min(low[d], x);
+      high[d] = std::max(high[d], x);
     }
   const double width = high[0] - low[0], height = high[1] - low[1];
   constexpr size_t least = 4;
@@ -107,7 +83,7 @@ long long Scan::cell_of(double u, double v) const {
 
 void Scan::sort_in() {
   for (size_t i = 0; i < points_.size(); ++i)
-    cells_[cell_of(points_[i][0], points_[i][1])].push_back(static_cast<int>(i));
+    cells_[cell_of(points_[i].u, points_[i].v)].push_back(static_cast<int>(i));
 }
 
 template <class Visit>
@@ -123,13 +99,13 @@ void Scan::around(double u, double v, Visit&& visit) const {
 std::optional<double> Scan::at(double u, double v) const {
   constexpr double far = 1e6;  // cells: no number of a cell beyond
   if (!(std::abs(u - low_u_) < far * cell_) || !(std::abs(v - low_v_) < far * cell_)) return {};
-  Plane plane;
+  FittedPlane plane;
   double nearest = INFINITY;
-  around(u, v, [&](const Point& point) {
-    const double du = point[0] - u, dv = point[1] - v, distance2 = du * du + dv * dv;
+  around(u, v, [&](const ScanPoint& point) {
+    const double du = point.u - u, dv = point.v - v, distance2 = du * du + dv * dv;
     nearest = std::min(nearest, distance2);
     if (distance2 < farthest * farthest * smooth_ * smooth_)
-      plane.add(du, dv, point[2], std::exp(-distance2 / (smooth_ * smooth_)));
+      plane.add(du, dv, point.height, std::exp(-distance2 / (smooth_ * smooth_)));
   });
   if (plane.is_empty() || nearest > smooth_ * smooth_ * (1.0 + 1e-9)) return {};
   return plane.height(smooth_);

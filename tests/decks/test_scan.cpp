@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/log.hpp"
 #include "decks/engine.hpp"
 
 namespace dygita::test::scan_tests {
@@ -51,6 +52,36 @@ TEST(Scan, is_the_function_that_it_was_taken_from) {
   EXPECT_NEAR(measured.column("force", "normal").back(), known.column("force", "normal").back(),
               1e-6 * std::abs(known.column("force", "normal").back()));
   EXPECT_NEAR(measured.column("side", "x").back(), known.column("side", "x").back(), 1e-13);
+}
+
+TEST(Scan, is_doubted_by_line_where_a_height_stands_alone_and_refused_where_a_place_has_two) {
+  const auto path = std::filesystem::temp_directory_path() / ("dygita_spike_" + std::to_string(getpid()) + ".csv");
+  const auto run = [&](const std::string& last) {
+    std::ofstream file(path);
+    file << "x [mm], y [mm], height [um]\n";
+    for (int x = 0; x <= 10; ++x)
+      for (int y = 0; y <= 8; ++y) file << x << ", " << y << ", " << (x == 6 && y == 2 ? 247.0 : -0.5 * x) << "\n";
+    file << last;
+    file.close();
+    run_text(blocks("local scan = field.file{ file = \"" + path.string() +
+                    "\" }\nlocal gap = function(x, y, z) return 1*mm - scan(x, y, z) end"),
+             {}, 1);
+  };
+  take_warnings();
+  testing::internal::CaptureStderr();
+  run("");
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("the height in line 58, 247 um at (6, 2) mm, is 250 um off the plane"), std::string::npos)
+      << said;
+  try {
+    run("3, 4, -1\n");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(":101: the height at (3, 4) mm is -1 um here and -1.5 um in line 33"),
+              std::string::npos)
+        << error.what();
+  }
+  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include "signal/scan.hpp"
 
@@ -87,6 +89,63 @@ TEST(Scan, refuses_what_is_no_face) {
   Scanned(title + "0; 0; 1\n1; 1; 1\n2; 2; 1\n").refuse("four that span an area are needed");
   Scanned(title + "0; 0; 1\n1; 0; 1\n2; 0; 1\n3; 0; 1\n").refuse("four that span an area are needed");
   Scanned(title + "0; 0; 1\n1; x; 1\n").refuse("'1; x; 1' is not two places and a height");
+}
+
+TEST(Scan, refuses_two_heights_of_one_place_by_their_lines) {
+  const std::string text = grid(
+      4, [](double x, double y) { return x + y; }, title);
+  Scanned(text + "2; 1; 3.5\n").refuse(":18: the height at (2, 1) mm is 3.5 um here and 3 um in line 11");
+  EXPECT_EQ(Scanned(text + "2; 1; 3\n").read().n_points(), 17u);  // the same height twice
+}
+
+// Lines of the points that contradict what lies around them; `spoiled`: those that are 9 um higher.
+std::vector<int> outliers(int n, const std::function<double(double, double)>& height,
+                          const std::vector<std::pair<int, int>>& spoiled) {
+  const Scan scan = Scanned(grid(
+                                n,
+                                [&](double x, double y) {
+                                  double h = height(x, y);
+                                  for (const auto& [i, j] : spoiled)
+                                    if (x == i && y == j) h += 9.0;
+                                  return h;
+                                },
+                                title))
+                        .read();
+  std::vector<int> lines;
+  for (const ScanOutlier& outlier : outliers_of(scan.points())) lines.push_back(outlier.point->line);
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+TEST(Scan, finds_heights_that_contradict_those_around_them) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.2);
+  const auto rough = [&](double x, double y) { return 2 * x - 0.1 * y * y + noise(random); };
+  const std::function<double(double, double)> faces[] = {
+      [](double, double) { return 0.0; }, [](double x, double y) { return 3 * x - y; },
+      [](double x, double y) { return 0.02 * (x * x + y * y); }, rough};
+  constexpr int n = 20;
+  const auto line = [](int i, int j) { return 2 + n * i + j; };
+  for (size_t f = 0; f < std::size(faces); ++f) {
+    SCOPED_TRACE(f);
+    EXPECT_TRUE(outliers(n, faces[f], {}).empty());
+    // In the middle, on an edge, in a corner, two side by side.
+    const std::vector<std::pair<int, int>> places = {{9, 9}, {0, 7}, {19, 19}, {14, 3}, {14, 4}};
+    EXPECT_EQ(outliers(n, faces[f], places),
+              (std::vector<int>{line(0, 7), line(9, 9), line(14, 3), line(14, 4), line(19, 19)}));
+  }
+}
+
+TEST(Scan, takes_steps_waves_and_digits_for_no_outliers) {
+  const std::function<double(double, double)> faces[] = {
+      [](double x, double y) { return x > 7 && x < 13 && y > 4 && y < 15 ? 20.0 : 0.0; },      // a pad, its corners
+      [](double x, double y) { return x + 2 * y > 30 ? 5.0 : 0.0; },                           // an oblique step
+      [](double x, double) { return x == 9 ? 4.0 : 0.0; },                                     // a rib
+      [](double x, double y) { return std::round(0.3 * x) + std::round(0.7 * std::sin(y)); },  // few digits
+      [](double x, double y) { return 3 * std::sin(0.8 * x) * std::cos(0.6 * y); },            // waves
+      [](double x, double y) { return 9 * std::exp(-0.1 * (std::pow(x - 8, 2) + y * y)); },    // a bump
+      [](double x, double y) { return std::fmod(7 * x + 5 * y, 3.0); }};                       // rough throughout
+  for (size_t f = 0; f < std::size(faces); ++f) EXPECT_TRUE(outliers(20, faces[f], {}).empty()) << f;
 }
 
 }  // namespace
