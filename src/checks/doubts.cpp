@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/overloaded.hpp"
+#include "base/warnings.hpp"
 #include "checks/parts.hpp"
 #include "law/law.hpp"
+#include "material/layup.hpp"
+#include "material/strip_stiffness.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/growth.hpp"
 #include "model/load.hpp"
@@ -112,6 +116,37 @@ void doubt_mass_damping(const Problem& problem) {
                     "damps rigid motion: {:.2g} % of a free velocity in the {:.3g} ms of the dynamic steps, and a "
                     "force that shows in reactions and momentum; a ratio at one frequency has no such part",
                     part->material.name, part->material.damping.mass, 100.0 * lost, 1e3 * duration));
+  }
+}
+
+// In one cell all plies have one shear stress across, or one linear from face to face: a core carries it by itself.
+void doubt_layups(const Problem& problem) {
+  constexpr double most = 0.03, wave = 9.87;  // of the deflection of half a sine over the length; pi^2
+  for (const SubstructurePtr& part : problem.substructures) {
+    const auto& layup = part->material.layup;
+    if (!layup || !part->mesh->has_cells() || part->mesh->blocks.front().axes.empty()) continue;
+    const Points along = part->mesh->blocks.front().axes.front().transpose() * part->mesh->nodes;
+    const Vec3 extent = along.rowwise().maxCoeff() - along.rowwise().minCoeff();
+    const int direction = extent[0] >= extent[1] ? 0 : 1;
+    const double length = extent[direction];
+    const StripStiffness strip = strip_of(*layup, direction);
+    const double bends = length * length / (wave * strip.bending), shears = 1.0 / strip.shear;
+    const double lost = (shears - 1.0 / strip.shear_of_one_stress) / (bends + shears);
+    if (!(lost > most)) continue;
+    double softest = std::numeric_limits<double>::infinity(), stiffest = 0.0;  // Pa
+    for (int i = 0; i < layup->n_plies(); ++i) {
+      const int row = direction == 0 ? 2 : 1;
+      softest = std::min(softest, 1.0 / layup->law(i).s(row, row));
+      stiffest = std::max(stiffest, 1.0 / layup->law(i).s(row, row));
+    }
+    doubt(problem, part->origin,
+          fmt::format("substructure '{}': layup '{}' is one cell across, which makes it up to {:.2g} % too stiff where "
+                      "it bends over its {:.4g} mm: shear across the plies is {:.0f} % of the deflection, and one cell "
+                      "gives all plies the same shear stress (their moduli are 1 : {:.3g}); model the core, or each "
+                      "half, as a part of its own with several cells across, joined by interface.bonded",
+                      part->name, part->material.name, 100.0 * lost, 1e3 * length, 100.0 * shears / (bends + shears),
+                      stiffest / softest),
+          {"layup in one cell", lost, "'" + part->name + "'"});
   }
 }
 
@@ -319,6 +354,7 @@ void doubts(const Problem& problem) {
   doubt_supports(problem, moves);
   doubt_mass_damping(problem);
   doubt_moduli(problem);
+  doubt_layups(problem);
   doubt_shortenings(problem);
   doubt_symmetry(problem);
   doubt_sudden_rest(problem);

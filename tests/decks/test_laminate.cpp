@@ -139,5 +139,55 @@ TEST(Laminate, bent_curves_and_stretches_as_lamination_theory_says) {
   }
 }
 
+// A cantilever of two sheets of aluminium on foam, 20 mm wide, under 22 N/m at its end.
+DeckRun sandwich(double length, bool is_one_cell) {
+  return run_text(R"(
+local p = param{ length = 200, one = 1 }
+local al = material.elastic{ name = "al", young = 70*GPa, poisson = 0.3, density = 2700 }
+local foam = material.elastic{ name = "foam", young = 65*MPa, poisson = 0.3, density = 80 }
+local l, parts, joints, supports, loads, z = p.length*mm, {}, {}, {}, {}, 0
+local function add(material, t, n)
+  parts[#parts + 1] = substructure{ name = "layer" .. #parts, material = material, mesh = mesh.box{ origin = { 0, 0, z }, size = { l, 20*mm, t }, cells = { 40, 2, n } } }
+  z = z + t
+end
+if p.one == 1 then
+  add(material.laminate{ name = "sandwich", plies = { { material = al, thickness = 1*mm }, { material = foam, thickness = 20*mm }, { material = al, thickness = 1*mm } } }, 22*mm, 1)
+else
+  add(al, 1*mm, 1) add(foam, 20*mm, 4) add(al, 1*mm, 1)
+  for i = 1, 2 do joints[i] = interface.bonded{ name = "glue" .. i, between = { parts[i]:face "zmax", parts[i + 1]:face "zmin" } } end
+end
+for i, part in ipairs(parts) do
+  supports[i] = support.fixed{ name = "root" .. i, on = part:face "xmin" }
+  loads[i] = load.traction{ on = part:face "xmax", z = 1*kPa }
+end
+problem{ name = "p", substructures = parts, interfaces = joints, supports = supports, steps = { step.static{ name = "pull", loads = loads } },
+  outputs = { output.history{ name = "tip", on = parts[1]:face "xmax", quantity = "displacement" } } }:run{}
+)",
+                  {{"length", std::to_string(length)}, {"one", is_one_cell ? "1" : "0"}}, 1)
+      .at(0);
+}
+
+// D = E t d^2 / 2, shear G d^2 / c; one cell has G h^2 / c.
+TEST(Laminate, of_a_thick_core_in_one_cell_is_told_to_be_too_stiff) {
+  const auto said_of = [](double length, bool is_one_cell) {
+    testing::internal::CaptureStderr();
+    sandwich(length, is_one_cell);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string said = said_of(200, true);
+  EXPECT_NE(
+      said.find("substructure 'layer0': layup 'sandwich' is one cell across, which makes it up to 7.7 % too stiff "
+                "where it bends over its 200 mm: shear across the plies is 88 % of the deflection"),
+      std::string::npos)
+      << said;
+  EXPECT_EQ(said_of(200, false).find("too stiff"), std::string::npos);
+  EXPECT_EQ(said_of(1000, true).find("too stiff"), std::string::npos);
+  // What is told is so: against a core of its own.
+  const double one = sandwich(200, true).column("tip", "z").back(),
+               own = sandwich(200, false).column("tip", "z").back();
+  EXPECT_GT(own / one, 1.03);
+  EXPECT_LT(own / one, 1.08);
+}
+
 }  // namespace
 }  // namespace dygita::test::laminate_tests
