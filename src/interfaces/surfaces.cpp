@@ -18,6 +18,7 @@
 #include "meeting/mortar.hpp"
 #include "meeting/segments.hpp"
 #include "meeting/sum_facing.hpp"
+#include "mesh/facet_keys.hpp"
 
 namespace dygita {
 
@@ -72,6 +73,20 @@ Facing facing_of_wall(const Face& face) {
   return joined(parts);
 }
 
+// Of the usual facet of a face, the share that another face covers of all of it.
+double covered(const PlacedFace& own, const PlacedFace& other) {
+  const FaceInSpace in_space(own), there(other);
+  double all = 0.0, covered = 0.0;
+  for (const FaceInSpace::Part& part : in_space.parts) all += part.area;
+  const double usual = all / static_cast<double>(own.facets.size());
+  const SegmentFinder finder(in_space, there, std::sqrt(usual));
+  for (size_t p = 0; p < in_space.parts.size(); ++p)
+    for (const Segment& segment : finder.segments(static_cast<int>(p))) covered += segment.area;
+  return covered / usual;
+}
+
+constexpr double next_to_nothing = 0.01;  // of a facet: what a face reaches over an edge by rounding
+
 // Of a facet on one side of an interface between meshes that do not match, the share that the other side covers.
 double covered_share(const Surface& surface, int part, const Facet& facet) {
   const bool is_first = surface.part_1 == part;
@@ -79,19 +94,29 @@ double covered_share(const Surface& surface, int part, const Facet& facet) {
              other = placed(is_first ? surface.interface->side_2 : surface.interface->side_1);
   own.facets = {facet};
   other.facets = is_first ? surface.facing.facets_2 : surface.facing.facets_1;
-  const FaceInSpace in_space(own), there(other);
-  double all = 0.0, covered = 0.0;
-  for (const FaceInSpace::Part& of_facet : in_space.parts) all += of_facet.area;
-  const SegmentFinder finder(in_space, there, std::sqrt(all));
-  for (size_t p = 0; p < in_space.parts.size(); ++p)
-    for (const Segment& segment : finder.segments(static_cast<int>(p))) covered += segment.area;
-  return covered / all;
+  return covered(own, other);
+}
+
+// Do two interfaces between the same parts, where meshes do not match, have an area in common?
+bool have_common_area(const Surface& a, const Surface& b) {
+  const auto shared = [](const std::vector<Facet>& of_a, const std::vector<Facet>& of_b) {
+    FacetKeys keys;
+    for (const Facet& facet : of_b) keys.insert(facet_key(facet));
+    std::vector<Facet> both;
+    for (const Facet& facet : of_a)
+      if (keys.contains(facet_key(facet))) both.push_back(facet);
+    return both;
+  };
+  const bool is_swapped = a.part_1 != b.part_1;
+  PlacedFace own = placed(a.interface->side_1), other = placed(a.interface->side_2);
+  own.facets = shared(a.facing.facets_1, is_swapped ? b.facing.facets_2 : b.facing.facets_1);
+  other.facets = shared(a.facing.facets_2, is_swapped ? b.facing.facets_1 : b.facing.facets_2);
+  return !own.facets.empty() && !other.facets.empty() && covered(own, other) > next_to_nothing;
 }
 
 // Facets named by two interfaces would carry their forces twice. Where meshes do not match, a facet may lie under
-// several bodies, but under each only once, and under none where a wall or a mesh that matches has all of it.
+// several bodies, or several faces of one, and under none where a wall or a mesh that matches has all of it.
 void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
-  constexpr double next_to_nothing = 0.01;  // of a facet: what a face reaches over an edge by rounding
   struct Claim {
     const Surface* surface;
     int other;
@@ -101,13 +126,20 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
   const auto covers = [&](const Surface& surface, int part, const Facet& facet) {
     return has_all(surface) || covered_share(surface, part, facet) > next_to_nothing;
   };
+  std::map<std::pair<const Surface*, const Surface*>, bool> known;
+  const auto meet = [&](const Surface& a, const Surface& b) {
+    const auto [at, is_new] = known.try_emplace({&a, &b}, false);
+    if (is_new) at->second = have_common_area(a, b);
+    return at->second;
+  };
   const auto claim = [&](const Surface& surface, int part, const std::vector<Facet>& facets, int other) {
     for (const Facet& facet : facets) {
       std::vector<Claim>& of_facet = claims[{part, facet_key(facet)}];
       for (const Claim& before : of_facet) {
         if (before.surface == &surface) continue;
         const bool is_alike = !has_all(surface) && !has_all(*before.surface);
-        if (is_alike ? before.other != other : !(covers(surface, part, facet) && covers(*before.surface, part, facet)))
+        if (is_alike ? before.other != other || !meet(surface, *before.surface)
+                     : !(covers(surface, part, facet) && covers(*before.surface, part, facet)))
           continue;
         const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
         throw InputError(origin, "'" + surface.name() + "' and '" + before.surface->name() +

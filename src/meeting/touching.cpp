@@ -166,6 +166,16 @@ std::vector<Facet> marked_facets(const Outside& outside, const std::vector<char>
   return facets;
 }
 
+// Marked facets of which something is left.
+std::vector<Facet> partly_covered(const Outside& outside, const std::vector<char>& marked,
+                                  const std::vector<double>& covered) {
+  constexpr double whole = 0.98;
+  std::vector<Facet> facets;
+  for (size_t f = 0; f < marked.size(); ++f)
+    if (marked[f] && covered[f] < whole * std::pow(outside.sizes[f], 2)) facets.push_back(outside.facets[f]);
+  return facets;
+}
+
 std::vector<Polygon> polygons_of(const Outside& outside, const std::vector<int>& facets) {
   std::vector<Polygon> polygons;
   for (const int f : facets) {
@@ -267,6 +277,7 @@ Touching find_touching(const Outside& one, const Outside& other, std::optional<d
   if (near_1.empty() || near_2.empty()) return found;
   const std::vector<SmoothPatch> patches_1 = patches_of(one, near_1), patches_2 = patches_of(other, near_2);
   std::vector<char> marked_1(one.facets.size(), 0), marked_2(other.facets.size(), 0);
+  std::vector<double> area_1(marked_1.size(), 0.0), area_2(marked_2.size(), 0.0);  // m^2, covered
   found.least_gap = 1e300;
   found.most_gap = -1e300;
   for (const SmoothPatch& patch_1 : patches_1)
@@ -280,6 +291,8 @@ Touching find_touching(const Outside& one, const Outside& other, std::optional<d
       if (covered_1.empty() || covered_2.empty()) continue;
       for (const int f : covered_1) marked_1[static_cast<size_t>(f)] = 1;
       for (const int f : covered_2) marked_2[static_cast<size_t>(f)] = 1;
+      for (const auto& [f, by] : common.covered_1) area_1[static_cast<size_t>(f)] += by.area;
+      for (const auto& [f, by] : common.covered_2) area_2[static_cast<size_t>(f)] += by.area;
       ++found.n_surfaces;
       found.area += common.area;
       found.bend = std::max(found.bend, bend);
@@ -288,6 +301,8 @@ Touching find_touching(const Outside& one, const Outside& other, std::optional<d
     }
   found.facets_1 = marked_facets(one, marked_1);
   found.facets_2 = marked_facets(other, marked_2);
+  found.partly_1 = partly_covered(one, marked_1, area_1);
+  found.partly_2 = partly_covered(other, marked_2, area_2);
   found.beside_1 = facets_beside(one, marked_1, taken_1);
   found.beside_2 = facets_beside(other, marked_2, taken_2);
   return found;

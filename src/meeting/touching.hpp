@@ -29,6 +29,7 @@ struct Touching {
   // Those beside them on the same smooth surface: they tell how much of what is around a node at the rim is covered.
   std::vector<Facet> beside_1, beside_2;
   std::vector<Facet> facets_1, facets_2;   // that take part
+  std::vector<Facet> partly_1, partly_2;   // of these, those that are not covered on all of their area
   double area = 0.0;                       // m^2, in common
   double least_gap = 0.0, most_gap = 0.0;  // m, between facets; negative where they cross, as chords of round faces do
   double within = 0.0;  // m, also where nothing touches: how far apart surfaces could be that count as touching

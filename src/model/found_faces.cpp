@@ -72,15 +72,28 @@ Outside surfaces_with(const SubstructurePtr& part, const std::vector<Facet>& fac
 
 Box box_of(const Substructure& part) { return PlacedBody{part.mesh.get(), part.place}.box(); }
 
-// The facets of a pair of parts that an interface of theirs has.
+// Marks the facets of a pair of parts that an interface of theirs has. What it covers in part is free for others, where
+// that is so of one side alone: two facets that have met in one interface may not meet in another.
 void take(const Interface& interface, bool is_swapped, FacetKeys& taken_1, FacetKeys& taken_2) {
   const Face &face_1 = is_swapped ? interface.side_2 : interface.side_1,
              &face_2 = is_swapped ? interface.side_1 : interface.side_2;
-  const Touching touching =
-      find_touching(outside_of({face_1.part, face_1}), outside_of({face_2.part, face_2}), interface.within);
+  const Outside outside_1 = outside_of({face_1.part, face_1}), outside_2 = outside_of({face_2.part, face_2});
+  const Touching touching = find_touching(outside_1, outside_2, interface.within);
   const bool is_found = !touching.is_empty();
-  for (const Facet& facet : is_found ? touching.facets_1 : face_1.facets()) taken_1.insert(facet_key(facet));
-  for (const Facet& facet : is_found ? touching.facets_2 : face_2.facets()) taken_2.insert(facet_key(facet));
+  FacetKeys all_1, all_2;
+  for (const Facet& facet : is_found ? touching.facets_1 : face_1.facets()) all_1.insert(facet_key(facet));
+  for (const Facet& facet : is_found ? touching.facets_2 : face_2.facets()) all_2.insert(facet_key(facet));
+  const std::vector<Facet>&partly_1 = touching.partly_1, &partly_2 = touching.partly_2;
+  const bool is_free = partly_1.empty() || partly_2.empty() ||
+                       find_touching({*face_1.part->mesh, face_1.part->place, partly_1},
+                                     {*face_2.part->mesh, face_2.part->place, partly_2}, touching.within)
+                           .is_empty();
+  if (is_free) {
+    for (const Facet& facet : partly_1) all_1.erase(facet_key(facet));
+    for (const Facet& facet : partly_2) all_2.erase(facet_key(facet));
+  }
+  taken_1.insert(all_1.begin(), all_1.end());
+  taken_2.insert(all_2.begin(), all_2.end());
 }
 
 }  // namespace

@@ -94,6 +94,47 @@ TEST(Unjoined, what_a_bond_leaves_of_a_foot_is_named_as_it_is) {
   }
 }
 
+// What is left of the foot presses as it does where both meshes match, and nothing is told.
+TEST(Unjoined, what_a_bond_leaves_of_a_foot_can_be_joined_whatever_the_meshes) {
+  const auto foot = [](const std::string& x, const std::string& plate, const std::string& block, bool is_of_plate) {
+    return run_text("local x, n, m, whole = " + x + "*mm, " + plate + ", " + block + ", " +
+                        (is_of_plate ? "true" : "false") +
+                        R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local plate = substructure{ name = "plate", material = steel, mesh = mesh.box{ size = { 40*mm, 40*mm, 10*mm }, cells = { n, n, 2 } } }
+local block = substructure{ name = "block", material = steel, place = { x, 10*mm, 10*mm }, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { m, m, m } } }
+local pad = whole and { block:face "zmin", plate:face{ low = { 9.9*mm, 9.9*mm, 9.9*mm }, high = { 20.1*mm, 30.1*mm, 10.1*mm } } }
+  or { plate:face "zmax", block:face{ low = { x - 0.01*mm, 9.9*mm, 9.9*mm }, high = { x + 10.01*mm, 30.1*mm, 10.1*mm } } }
+local glue = interface.bonded{ name = "glue", between = pad }
+local rest = interface.contact{ between = "all touching", friction = 0.3 }
+local base = support.fixed{ name = "base", on = plate:face "zmin" }
+local press = step.static{ name = "press", loads = { load.pressure{ on = block:face "zmax", history = 10*MPa } } }
+problem{ name = "foot", substructures = { plate, block }, interfaces = { glue, rest }, supports = { base }, steps = { press },
+  outputs = { output.resultant{ name = "glue", on = glue }, output.resultant{ name = "rest", on = rest } } }:run{}
+)",
+                    {}, 1)
+        .at(0);
+  };
+  struct Scene {
+    const char *x, *plate, *block;
+    bool is_of_plate;
+    double left;  // mm^2
+  };
+  const Scene scenes[] = {{"11", "8", "4", false, 200}, {"13.5", "8", "4", false, 200}, {"11", "10", "6", false, 200},
+                          {"11", "4", "8", false, 200}, {"11", "8", "5", true, 220},    {"8", "20", "5", true, 200}};
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(std::string(scene.x) + " " + scene.plate + " " + scene.block);
+    testing::internal::CaptureStderr();
+    const DeckRun run = foot(scene.x, scene.plate, scene.block, scene.is_of_plate);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("touch on"), std::string::npos) << said;
+    EXPECT_NEAR(run.result->contacts.at(0).area, 1e-6 * scene.left, 1e-3 * 1e-6 * scene.left);
+    const double rest = -run.column("rest", "normal").back(), glue = -run.column("glue", "normal").back();
+    EXPECT_NEAR(rest + glue, 4000.0, 1e-3 * 4000.0);
+    EXPECT_NEAR(rest, 10.0 * scene.left, 0.15 * 10.0 * scene.left);
+  }
+}
+
 // 40 m/s for 100 us, across more than a twentieth of the block's size.
 TEST(Unjoined, parts_that_fly_into_each_other_from_afar_are_named) {
   std::string text = blocks_at("{ 10*mm, 10*mm, 12.4*mm }", "");
