@@ -1051,8 +1051,9 @@ words[10] = {
   {
     "joint", makes = "output",
     doc = "History of an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
-      .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J). `slip` is how far the two sides have moved on each other along the joint, while "
-      .. "closed, from the first step on, at the point where that is farthest: there and back again is none, `friction_work` counts the way. `opening` is that "
+      .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J). `slip` is how far the two sides have moved on each other along the joint, from "
+      .. "their first touch to their last, at the point where that is farthest: there and back again is none, what a point moves while it is open counts once it touches "
+      .. "again, `friction_work` counts the way under pressure. `opening` is that "
       .. "of the point where its size is largest.",
     arguments = { name_of "output", on({ "interface", "support.wall" }, "interfaces or walls") },
   },

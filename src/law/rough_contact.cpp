@@ -7,6 +7,7 @@
 #include "law/friction_disc.hpp"
 #include "law/law.hpp"
 #include "law/pressure_curve.hpp"
+#include "law/slip.hpp"
 
 namespace dygita {
 
@@ -254,8 +255,8 @@ LawState RoughContact::advance(const Trial& trial, const Increment& increment, c
   const double approach = -end.gap, limit = friction_ * -force[0] / trial.area;
   const Tangential t = tangential_after(start.memory, approach, curve_.slope(approach), limit, increment.is_static);
   Vec2 last = Vec2::Zero();
+  follow_slip(moved.tail<2>(), force[0] < 0.0, end);
   if (force[0] < 0.0) {
-    if (friction_ > 0.0) end.slip.tail<2>() += moved.tail<2>();
     if (t.slope > 0.0) last = increment.end_of<Vec2>(force.tail<2>() / (trial.area * t.slope), t.left);
     const bool slides = t.slope * last.norm() >= (1.0 - 1e-9) * limit;
     end.status = slides ? PointState::slip : PointState::stick;
@@ -336,8 +337,8 @@ void RoughContact::move(SpringPoint& point, const Vec3& jump) const {
     if (traction >= limit) now.status = PointState::slip;
     point.friction_work += point.area * 0.5 * t.slope * (t.left + last).dot(free - last);
     now.force.tail<2>() = point.area * t.slope * last;
-    if (friction_ > 0.0) now.slip.tail<2>() += moved;
   }
+  follow_slip(moved, pressure > 0.0, now);
   point.friction_work += point.area * (before - 0.5 * t.slope * t.left.squaredNorm());
   keep(approach, t.slope, last, now.memory);
 }

@@ -61,9 +61,13 @@ void ContactRecorder::begin_step(const Instant& start) {
                      surface.declared_law().shown().slip;
       const std::vector<Work>& works = start.state.surfaces[static_cast<size_t>(s)].works;
       start.for_each_point_here(s, [&](int i, const LawState& point) {
-        watched.points[static_cast<size_t>(i)] = {point.slip, point.status != PointState::open,
+        const bool is_closed = point.status != PointState::open;
+        watched.points[static_cast<size_t>(i)] = {point.slip, is_closed, is_closed,
                                                   works[static_cast<size_t>(i)].friction};
       });
+      if (!start.is_static() &&
+          (changes_.empty() || changes_.back().step != start.model.step || changes_.back().contact != c))
+        changes_.push_back({start.model.step, c});
       if (watched.rubs &&
           (rubbing_.empty() || rubbing_.back().step != start.model.step || rubbing_.back().contact != c))
         rubbing_.push_back({start.model.step, c});
@@ -106,6 +110,11 @@ void ContactRecorder::follow_friction(const Instant& instant) {
 }
 
 void ContactRecorder::tell(RunResult& result) const {
+  tell_friction(result);
+  tell_chatter(result);
+}
+
+void ContactRecorder::tell_friction(RunResult& result) const {
   constexpr double most = 0.2;        // of what friction takes
   constexpr double of_motion = 0.05;  // friction that takes less hardly damps it
   for (const Rubbing& of : rubbing_)
@@ -118,16 +127,35 @@ void ContactRecorder::tell(RunResult& result) const {
           100.0 * most));
 }
 
-void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Sums& sums, ContactStep& step) const {
+// Points that open and close every few increments while the force swings: what the mesh and dt make of a contact
+// without damping. Its mean force, and so friction and motion, are right; its extremes mean nothing.
+void ContactRecorder::tell_chatter(RunResult& result) const {
+  constexpr double most = 10.0, least = 0.15;  // increments from change to change; of the force, from each to the next
+  for (const Changes& of : changes_) {
+    const ContactSummary& contact = result.contacts[of.contact];
+    const double every = contact.area * of.n / of.area, change = of.changed / of.pressed;
+    if (!(every < most) || !(change > least)) continue;
+    result.warnings.push_back(
+        fmt::format("step '{}': contact '{}' chatters: its points open or close every {:.2g} time steps, and its "
+                    "force, {:.4g} to {:.4g} N, changes by {:.0f} % from one to the next on average; friction and "
+                    "motion follow its mean and are right, peaks of force and stress are not: give the parts "
+                    "'damping', use numerical_damping (implicit parts) or solver.explicit, or a smaller dt",
+                    of.step->name, contact.name, every, of.lowest, of.highest, 100.0 * change));
+  }
+}
+
+void ContactRecorder::look_at(const Instant& instant, Watched& watched, Sums& sums, ContactStep& step) const {
   const Surface& surface = (*instant.model.surfaces)[static_cast<size_t>(watched.surface)];
   const Law& law = surface.declared_law();
   if (instant.state.released[static_cast<size_t>(watched.surface)]) return;
   instant.for_each_point_here(watched.surface, [&](int i, const LawState& point) {
-    const Start& start = watched.points[static_cast<size_t>(i)];
+    Start& start = watched.points[static_cast<size_t>(i)];
+    const bool is_closed = point.status != PointState::open;
+    if (std::exchange(start.was_closed, is_closed) != is_closed) sums.changed += surface.facing.areas[i];
     const Vec3 place = surface.facing.places.col(i);
     if (start.is_closed) raise(law.opening(point), place, step.opening, step.opening_at);
+    if (!is_closed) return;
     if (step.slip) raise((point.slip - start.slip).norm(), place, *step.slip, step.slip_at);
-    if (point.status == PointState::open) return;
     const Vec3 n = surface.facing.normals.col(i);
     const double normal = point.force.dot(n), area = surface.facing.areas[i];
     sums.pressed -= normal;
@@ -140,7 +168,18 @@ void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Su
   });
 }
 
-void ContactRecorder::add(const Sums& sums, bool is_static, ContactSummary& contact) const {
+void ContactRecorder::add(const Sums& sums, bool is_static, size_t c) {
+  ContactSummary& contact = contacts_[c];
+  const auto changes =
+      std::find_if(changes_.rbegin(), changes_.rend(), [&](const Changes& of) { return of.contact == c; });
+  if (!is_static && sums.pressed > 0.0) {
+    if (changes->n++ > 0) changes->changed += std::abs(sums.pressed - changes->last);
+    changes->last = sums.pressed;
+    changes->pressed += sums.pressed;
+    changes->area += sums.changed;
+    changes->lowest = std::min(changes->lowest, sums.pressed);
+    changes->highest = std::max(changes->highest, sums.pressed);
+  }
   const double shear = sums.shear.norm(), closed = contact.area > 0.0 ? sums.closed / contact.area : 0.0;
   const bool is_first = is_static || is_new_;
   ContactStep& step = contact.steps.back();
@@ -170,18 +209,18 @@ void ContactRecorder::accept(const Instant& instant) {
     if (contact.friction > 0.0) contact.steps.back().slip = 0.0;
   }
   std::vector<Sums> of_each(contacts_.size());
-  for (const Watched& watched : watched_)
+  for (Watched& watched : watched_)
     look_at(instant, watched, of_each[watched.contact], contacts_[watched.contact].steps.back());
   std::vector<double> numbers;
-  constexpr size_t n_sums = 10;
+  constexpr size_t n_sums = 11;
   for (const Sums& of : of_each)
     numbers.insert(numbers.end(), {of.pressed, of.shear[0], of.shear[1], of.shear[2], of.closed, of.sliding,
-                                   of.moment[0], of.moment[1], of.moment[2], of.leverage});
+                                   of.moment[0], of.moment[1], of.moment[2], of.leverage, of.changed});
   numbers = ranks::sums(numbers);
   for (size_t c = 0; c < contacts_.size(); ++c) {
     const double* n = numbers.data() + n_sums * c;
     if (is_watched[c])
-      add({n[0], {n[1], n[2], n[3]}, n[4], n[5], {n[6], n[7], n[8]}, n[9]}, instant.is_static(), contacts_[c]);
+      add({n[0], {n[1], n[2], n[3]}, n[4], n[5], {n[6], n[7], n[8]}, n[9], n[10]}, instant.is_static(), c);
   }
   is_new_ = false;
   if (!instant.is_static()) follow_friction(instant);

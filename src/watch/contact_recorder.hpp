@@ -1,6 +1,7 @@
 // Watches every contact of a run, walls with them: each rank the points that it keeps.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "result/contact_summary.hpp"
@@ -17,7 +18,7 @@ class ContactRecorder {
   void accept(const Instant& instant);
   // Once, after the last step: rank 0 knows all.
   void settle();
-  // Warns of friction that dt does not resolve, in the contacts that it has given.
+  // Warns of friction that dt does not resolve and of chatter, in the contacts that it has given.
   void tell(RunResult& result) const;
   // In the order of interfaces and walls.
   std::vector<ContactSummary> take() { return std::move(contacts_); }
@@ -33,7 +34,8 @@ class ContactRecorder {
   struct Start {
     Vec3 slip = Vec3::Zero();
     bool is_closed = false;
-    double work = 0.0;  // J, that friction has taken up to the last increment
+    bool was_closed = false;  // an increment ago
+    double work = 0.0;        // J, that friction has taken up to the last increment
     Slide slide = {};
   };
   // Of a dynamic step, J: what friction takes in a contact, how much of it in slides of one or two increments, whose
@@ -58,19 +60,32 @@ class ContactRecorder {
     // N m, about the contact's middle: of the shear; of what presses, were it shear across the way there.
     Vec3 moment = Vec3::Zero();
     double leverage = 0.0;
+    double changed = 0.0;  // m^2, closed since the last increment, or open
+  };
+  // Of a dynamic step, in the increments in which the contact carried something: their number, the area (m^2) that has
+  // closed or opened, the sum of what pressed (N) and of its changes, its least and its most.
+  struct Changes {
+    const Step* step;
+    size_t contact;
+    int n = 0;
+    double area = 0.0, pressed = 0.0, changed = 0.0, last = 0.0;
+    double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
   };
 
   void find_contacts(const Instant& start);
   void follow_friction(const Instant& instant);
   static void follow_slide(const LawState& now, const Vec3& force, double taken, Slide& slide, Rubbing& of);
-  void look_at(const Instant& instant, const Watched& watched, Sums& sums, ContactStep& step) const;
-  void add(const Sums& sums, bool is_static, ContactSummary& contact) const;
+  void look_at(const Instant& instant, Watched& watched, Sums& sums, ContactStep& step) const;
+  void tell_friction(RunResult& result) const;
+  void tell_chatter(RunResult& result) const;
+  void add(const Sums& sums, bool is_static, size_t contact);
 
   std::vector<ContactSummary> contacts_;
   std::vector<std::vector<int>> surfaces_;  // of each contact
   std::vector<Vec3> middles_;               // m, of each contact
   std::vector<Watched> watched_;            // in this step
   bool is_new_ = false;                     // the step: no increment yet
+  std::vector<Changes> changes_;            // of each contact in this step, after those of the steps before
   std::vector<Rubbing> rubbing_;            // of each contact in this step, after those of the steps before
 };
 

@@ -60,7 +60,9 @@ void FollowedMotion::accept(const Instant& instant) {
     if (motion.moved.size() > 0) {
       const bool is_slip = followed(surface) == Followed::slip_while_closed;
       for (int i = 0; i < surface.n_points(); ++i) {
-        if (is_slip && instant.surface(static_cast<int>(s)).points[i].status == PointState::open) continue;
+        // As law/slip.hpp does where the law knows the tangents.
+        const bool is_open = instant.surface(static_cast<int>(s)).points[i].status == PointState::open;
+        if (is_slip && is_open && motion.moved.col(i).isZero(0.0)) continue;
         const Vec3 n = surface.facing.normals.col(i), moved = now.col(i) - motion.before.col(i);
         motion.moved.col(i) += is_slip ? Vec3(moved - moved.dot(n) * n) : moved;
       }

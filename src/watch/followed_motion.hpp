@@ -5,8 +5,8 @@
 
 namespace dygita {
 
-// Slips (m) of contact without friction, which has no tangential unknown, while it is closed; openings and slips (m)
-// for laws of rates, and of what has let go (a released interface, a wall that a step leaves out) from then on.
+// Slips (m) of contact without friction, which has no tangential unknown, from their first touch on; openings and slips
+// (m) for laws of rates, and of what has let go (a released interface, a wall that a step leaves out) from then on.
 class FollowedMotion {
  public:
   void begin_step(const Instant& instant);

@@ -6,6 +6,7 @@
 #include "law/friction_disc.hpp"
 #include "law/law.hpp"
 #include "law/rough_contact.hpp"
+#include "law/slip.hpp"
 
 namespace dygita {
 
@@ -93,11 +94,11 @@ LawState Contact::advance(const Trial& trial, const Increment& increment, const 
   const Vec3 moved = motion_of(start, end, increment);
   end.gap = start.gap + moved[0];
   end.force = force;
+  follow_slip(moved.tail<2>(), force[0] != 0.0, end);
   const double limit = friction_ * std::abs(force[0]);
   if (force[0] == 0.0) {
     end.status = PointState::open;
   } else {
-    if (friction_ > 0.0) end.slip.tail<2>() += moved.tail<2>();
     end.status = force.tail<2>().norm() >= (1.0 - 1e-9) * limit ? PointState::slip : PointState::stick;
   }
   return end;
@@ -133,25 +134,22 @@ void Contact::move(SpringPoint& point, const Vec3& jump) const {
   LawState& now = point.now;
   now.gap = point.start.gap + jump[0];
   now.force[0] = point.stiffness[0] * std::min(0.0, now.gap + point.offset);
-  if (now.force[0] == 0.0) {
-    now.force.tail<2>().setZero();
-    now.status = PointState::open;
-    return;
+  const bool touches = now.force[0] != 0.0;
+  now.status = touches ? PointState::slip : PointState::open;
+  if (point.stiffness[1] == 0.0) {
+    if (!touches) now.force.tail<2>().setZero();
+    return follow_slip(moved.tail<2>(), touches, now);
   }
-  now.status = PointState::slip;
-  if (point.stiffness[1] == 0.0) return;
   const double limit = friction_ * -now.force[0];
-  const Eigen::Vector2d before = now.force.tail<2>();
-  const Eigen::Vector2d trial = before + point.stiffness[1] * moved.tail<2>();
+  const Eigen::Vector2d trial = now.force.tail<2>() + point.stiffness[1] * moved.tail<2>();
   const double norm = trial.norm();
-  if (norm <= limit) {
-    now.force.tail<2>() = trial;
-    now.status = PointState::stick;
-    return;
-  }
-  now.force.tail<2>() = trial * (limit / norm);
+  const bool sticks = touches && norm <= limit;
+  now.force.tail<2>() = sticks        ? trial
+                        : limit > 0.0 ? Eigen::Vector2d(trial * (limit / norm))
+                                      : Eigen::Vector2d::Zero();
+  if (sticks) now.status = PointState::stick;
   const Eigen::Vector2d slid = (trial - now.force.tail<2>()) / point.stiffness[1];
-  now.slip.tail<2>() += slid;
+  follow_slip(slid, touches, now);
   point.friction_work += now.force.tail<2>().dot(slid);
 }
 

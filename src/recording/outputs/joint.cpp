@@ -1,6 +1,8 @@
 // output.joint: forces, largest opening and slip, areas by state, works of an interface or a wall.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "law/law.hpp"
 #include "model/places.hpp"
@@ -52,7 +54,7 @@ class JointRecorder : public TableRecorder {
   }
 
  private:
-  JointState state_of(const Instant& instant) const {
+  JointState state_of(const Instant& instant) {
     JointState joint;
     for (const int s : surfaces_of(instant, on_)) {
       const SurfaceState& surface = instant.surface(s);
@@ -61,15 +63,26 @@ class JointRecorder : public TableRecorder {
         const double opening = motion_.opening(instant, s, static_cast<int>(i));
         if (std::abs(opening) > std::abs(joint.opening)) joint.opening = opening;
         if (std::abs(p.plastic_opening) > std::abs(joint.plastic_opening)) joint.plastic_opening = p.plastic_opening;
-        joint.slip = std::max(joint.slip, motion_.slip(instant, s, static_cast<int>(i)).norm());
+        joint.slip = std::max(joint.slip, slip_at_touch(instant, s, i));
       }
       joint.work.add(surface.work());
     }
     return joint;
   }
 
+  // m, as it was when the sides of a contact touched last.
+  double slip_at_touch(const Instant& instant, int s, size_t i) {
+    std::vector<double>& kept = slips_[s];
+    kept.resize(instant.surface(s).points.size());
+    const bool is_apart = (*instant.model.surfaces)[s].declared_law().shown().gap &&
+                          instant.surface(s).points[i].status == PointState::open;
+    if (!is_apart) kept[i] = motion_.slip(instant, s, static_cast<int>(i)).norm();
+    return kept[i];
+  }
+
   const Problem& problem_;
   const std::vector<Target>& on_;
+  std::map<int, std::vector<double>> slips_;  // m, of each point of the surfaces
   FollowedMotion motion_;
   JointState before_;
 };
