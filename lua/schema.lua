@@ -247,11 +247,14 @@ local function damping()
         { "stiffness", type = "number", unit = "s", range = { 0, 0.01 }, default = 0, doc = "stiffness-proportional" },
       } },
     { "damping_ratio", type = "numbers", range = { 0, 1 }, at_least = 1, at_most = 2, or_single = true,
-      doc = "instead of `damping`: fraction of critical damping at `damping_frequency`, 0.02 for 2 %; one for both frequencies, or one each" },
+      doc = "instead of `damping`: fraction of critical damping at `damping_frequency` or over `damping_band`, 0.02 for 2 %; one for both frequencies, or one each" },
     { "damping_frequency", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 1, at_most = 2, or_single = true,
-      doc = "frequency of the ratio: one (damping proportional to frequency), or two (least in between)" }
+      doc = "frequency of the ratio: one (damping proportional to frequency), or two (least in between)" },
+    { "damping_band", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 2, at_most = 2,
+      doc = "instead of `damping_frequency`: the ratio, one, holds at all frequencies from the first to the second, within 5 %; "
+        .. "the modulus then grows with frequency, and is the one given in static steps and in the middle of the band" }
 end
-local damping_time, damping_ratio, damping_frequency = damping()
+local damping_time, damping_ratio, damping_frequency, damping_band = damping()
 local density = { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" }
 
 local function modulus(name, doc) return { name, type = "number", unit = "Pa", range = { 1e3, 2e12 }, required = true, doc = doc } end
@@ -288,7 +291,7 @@ words[2] = {
       density,
       { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 },
         doc = "yield stress: the run then monitors the von Mises stress of its parts and states the margin; the material stays elastic" },
-      damping_time, damping_ratio, damping_frequency,
+      damping_time, damping_ratio, damping_frequency, damping_band,
     },
   },
   {
@@ -300,7 +303,7 @@ words[2] = {
       modulus("e1", "Young's modulus along axis 1"), modulus("e2", "Young's modulus along axis 2"), modulus("e3", "Young's modulus along axis 3"),
       contraction("2", "1"), contraction("3", "1"), contraction("3", "2"),
       modulus("g12", "shear modulus in the plane of axes 1 and 2"), modulus("g13", "shear modulus in the plane of axes 1 and 3"), modulus("g23", "shear modulus in the plane of axes 2 and 3"),
-      density, strength, criterion, damping_time, damping_ratio, damping_frequency,
+      density, strength, criterion, damping_time, damping_ratio, damping_frequency, damping_band,
     },
   },
   {
@@ -315,7 +318,7 @@ words[2] = {
           { "thickness", type = "number", unit = "m", range = { 1e-7, 10 }, required = true, doc = "thickness; the sum is that of the cell" },
           { "angle", type = "number", range = { -7, 7 }, in_radians = true, default = 0, doc = "of its axis 1 from axis 1 of the layup towards axis 2, in radians: `45*deg`" },
         } },
-      damping_time, damping_ratio, damping_frequency,
+      damping_time, damping_ratio, damping_frequency, damping_band,
     },
   },
 }
@@ -1232,7 +1235,7 @@ local methods = {
       { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, default_doc = "the file's", doc = "mass per volume" },
       { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 }, doc = "yield stress that the run monitors, of an isotropic material" },
       strength, criterion,
-      damping_time, damping_ratio, damping_frequency,
+      damping_time, damping_ratio, damping_frequency, damping_band,
     },
   },
   {

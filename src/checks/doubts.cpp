@@ -150,6 +150,25 @@ void doubt_layups(const Problem& problem) {
   }
 }
 
+// A constant damping is not to be had without a stiffness that grows with frequency.
+void doubt_stiffening(const Problem& problem) {
+  constexpr double least = 0.01;  // of a natural frequency
+  std::set<std::string> told;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const Damping& damping = part->material.damping;
+    if (!damping.band || !told.insert(part->material.name).second) continue;
+    const auto [low, high] = *damping.band;
+    const auto shift = [&](double f) { return std::sqrt(damping.storage(f)) - 1.0; };
+    if (std::max(std::abs(shift(low)), std::abs(shift(high))) < least) continue;
+    doubt(problem, part->origin,
+          fmt::format("constant damping of material '{}' stiffens it with frequency, as causality has it: natural "
+                      "frequencies are {:.1f} % low near {:g} Hz and {:.1f} % high near {:g} Hz, right at {:.4g} Hz; "
+                      "static steps have the modulus as given, slow loads in dynamic ones {:.1f} % less",
+                      part->material.name, -100.0 * shift(low), low, 100.0 * shift(high), high, std::sqrt(low * high),
+                      100.0 * (1.0 - damping.storage(0.0))));
+  }
+}
+
 // Sound that creeps: a modulus in the wrong unit.
 void doubt_moduli(const Problem& problem) {
   const double slowest = 300.0;
@@ -353,6 +372,7 @@ void doubts(const Problem& problem) {
   }
   doubt_supports(problem, moves);
   doubt_mass_damping(problem);
+  if (moves) doubt_stiffening(problem);
   doubt_moduli(problem);
   doubt_layups(problem);
   doubt_shortenings(problem);

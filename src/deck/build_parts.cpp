@@ -120,13 +120,26 @@ Content build_bolt_mesh(const Declaration& d) {
               bolt_end_mesh);
 }
 
+Damping damping_over_band(const LuaArguments& a) {
+  const std::vector<double> ratio = a.numbers("damping_ratio"), band = a.numbers("damping_band");
+  if (a.has("damping_frequency"))
+    throw InputError("'damping_band' and 'damping_frequency' are mutually exclusive: give one of them");
+  if (ratio.size() > 1)
+    throw InputError("'damping_ratio' over a 'damping_band' is one value for all frequencies of it");
+  if (!(band[0] < band[1]))
+    throw InputError(fmt::format("'damping_band' must go from a lower to a higher frequency, and is {:g} to {:g} Hz",
+                                 band[0], band[1]));
+  return damping_over(ratio[0], {band[0], band[1]});
+}
+
 Damping damping_by_ratio(const LuaArguments& a) {
   if (!a.is_number("damping") || a.number("damping") != 0.0)
     throw InputError("'damping' and 'damping_ratio' are mutually exclusive: give one of them");
+  if (a.has("damping_band")) return damping_over_band(a);
   if (!a.has("damping_frequency"))
     throw InputError(
         "'damping_ratio' requires the frequency at which it holds\n    damping_frequency = 1*kHz, or { 200*Hz, 2*kHz "
-        "}");
+        "}; or damping_band = { 100*Hz, 10*kHz }");
   const std::vector<double> ratio = a.numbers("damping_ratio"), frequency = a.numbers("damping_frequency");
   if (ratio.size() > frequency.size())
     throw InputError("'damping_ratio' has two values and 'damping_frequency' one: give one frequency per ratio");
@@ -138,7 +151,8 @@ Damping damping_by_ratio(const LuaArguments& a) {
 
 Damping damping_in(const LuaArguments& a) {
   if (a.has("damping_ratio")) return damping_by_ratio(a);
-  if (a.has("damping_frequency")) throw InputError("'damping_frequency' requires 'damping_ratio', which is missing");
+  for (const char* key : {"damping_frequency", "damping_band"})
+    if (a.has(key)) throw InputError(fmt::format("'{}' requires 'damping_ratio', which is missing", key));
   if (a.is_number("damping")) return {0.0, a.number("damping")};
   const auto damping = a.settings("damping");
   return {damping.at("mass"), damping.at("stiffness")};
@@ -176,8 +190,7 @@ std::shared_ptr<const Strength> strength_of(const Material& material) {
 void check_ply(const Material& material, int ply, bool has_strength) {
   const std::string its = fmt::format("'plies[{}]': material '{}'", ply, material.name);
   if (material.layup) throw InputError(its + " is a laminate itself\n    list its plies");
-  if (material.damping.mass != 0.0 || material.damping.stiffness != 0.0)
-    throw InputError(its + " has a damping of its own\n    give it to the laminate");
+  if (!material.damping.is_none()) throw InputError(its + " has a damping of its own\n    give it to the laminate");
   if ((material.strength || material.yield) != has_strength)
     throw InputError(
         fmt::format("{} has {}strength, unlike that of the first ply\n    all plies have a 'strength' (or "

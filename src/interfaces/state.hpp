@@ -41,6 +41,9 @@ struct State {
   std::vector<Points> displacement;  // one 3 x n_nodes a piece, m, at all copies; of a piece elsewhere: 3 x 0
   std::vector<Points> velocity;      // m/s
   std::vector<Points> force;         // N, external forces of the last increment, on the copies that own a node
+  // m, of the branches of material damping (as many as the material has that has most), and in each as displacement;
+  // zero where the step was static.
+  std::vector<std::vector<Points>> elongation;
   std::vector<std::map<int, Vec3>>
       anchor;  // N, static reactions that absorbing supports keep: of each substructure, by node
   std::vector<SurfaceState> surfaces;
@@ -50,6 +53,13 @@ struct State {
   std::map<const void*, Vec3> base_velocity;  // m/s, of supports that were accelerated
   Energies energies;
   bool has_moved = false;  // initial velocities have been applied
+
+  // Of nodes, all of them.
+  std::vector<std::vector<Points>*> fields() {
+    std::vector<std::vector<Points>*> all{&displacement, &velocity, &force};
+    for (std::vector<Points>& branch : elongation) all.push_back(&branch);
+    return all;
+  }
 };
 
 }  // namespace dygita

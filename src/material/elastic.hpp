@@ -18,6 +18,9 @@ Damping damping_of(double ratio, double frequency);
 // Rayleigh's, with a ratio at each of two frequencies (Hz). Throws InputError where they ask for a negative mass or
 // stiffness part.
 Damping damping_of(const std::array<double, 2>& ratio, const std::array<double, 2>& frequency);
+// A ratio at all frequencies between two (Hz), within 5 %, by branches (manual, eq. D22-D23). Throws InputError where
+// the stiffness would change too much.
+Damping damping_over(double ratio, const std::array<double, 2>& band);
 
 // By the name that a deck gives it, SI.
 struct MaterialConstant {

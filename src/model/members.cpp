@@ -14,14 +14,12 @@ namespace dygita {
 namespace {
 
 bool are_same(const Substructure& a, const Substructure& b, std::string& what) {
-  const Damping &damping_a = a.material.damping, &damping_b = b.material.damping;
-  what = a.mesh->digest != b.mesh->digest       ? "the mesh"
-         : a.material.key() != b.material.key() ? "the material"
-         : std::tie(damping_a.mass, damping_a.stiffness) != std::tie(damping_b.mass, damping_b.stiffness)
-             ? "the damping"
-         : a.place != b.place             ? "the place"
-         : a.integration != b.integration ? "'integration'"
-                                          : "";
+  what = a.mesh->digest != b.mesh->digest           ? "the mesh"
+         : a.material.key() != b.material.key()     ? "the material"
+         : a.material.damping != b.material.damping ? "the damping"
+         : a.place != b.place                       ? "the place"
+         : a.integration != b.integration           ? "'integration'"
+                                                    : "";
   return what.empty();
 }
 

@@ -2,21 +2,71 @@
 // balance, how long an increment may be, and how large its error is. Nobody else knows its weights.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 namespace dygita {
 
-// Damping in proportion to mass and stiffness (manual, eq. D8).
+// A spring in series with a damper, beside the stiffness K of a body: the force strength K e, with e' = u' - rate e
+// (manual, eq. D22).
+struct Branch {
+  double strength = 0.0;  // as a share of K
+  double rate = 0.0;      // 1/s, one over the relaxation time
+
+  bool operator==(const Branch&) const = default;
+};
+
+// What is left of a branch's elongation after a time (s), and what a velocity that lasts so long adds to it (s).
+struct Relaxation {
+  double left = 1.0, gain = 0.0;
+  Relaxation() = default;
+  Relaxation(double rate, double time)
+      : left(std::exp(-rate * time)), gain(rate > 0.0 ? -std::expm1(-rate * time) / rate : time) {}
+};
+
+// Damping in proportion to mass and stiffness (manual, eq. D8), or the same at all frequencies of a band by branches.
 struct Damping {
   double mass = 0.0;       // 1/s
   double stiffness = 0.0;  // s
+  std::vector<Branch> branches = {};
+  std::optional<std::array<double, 2>> band = {};  // Hz, of the branches
+
+  bool operator==(const Damping&) const = default;
+  bool is_none() const { return *this == Damping(); }
+  // Do forces on nodes depend on how the cells around them are strained in time?
+  bool is_of_strain() const { return stiffness > 0.0 || !branches.empty(); }
 
   // Of critical damping at a frequency (Hz).
   double ratio(double frequency) const {
     constexpr double pi = std::numbers::pi;
-    return mass / (4.0 * pi * frequency) + pi * frequency * stiffness;
+    return mass / (4.0 * pi * frequency) + pi * frequency * stiffness + ratio_of_branches(frequency);
+  }
+  double ratio_of_branches(double frequency) const {
+    return std::sin(0.5 * std::atan2(loss(frequency), storage(frequency)));
+  }
+  // The stiffness of a vibration at a frequency (Hz) as a share of the static one, in phase with the motion and a
+  // quarter of a period ahead of it (manual, eq. D23); that of a sudden motion.
+  double storage(double frequency) const {
+    const double w = 2.0 * std::numbers::pi * frequency;
+    double sum = 1.0;
+    for (const Branch& b : branches) sum += b.strength * (b.rate > 0.0 ? w * w / (w * w + b.rate * b.rate) : 1.0);
+    return sum;
+  }
+  double loss(double frequency) const {
+    const double w = 2.0 * std::numbers::pi * frequency;
+    double sum = 0.0;
+    for (const Branch& b : branches)
+      if (b.rate > 0.0) sum += b.strength * w * b.rate / (w * w + b.rate * b.rate);
+    return sum;
+  }
+  double of_sudden_motion() const {
+    double sum = 1.0;
+    for (const Branch& b : branches) sum += b.strength;
+    return sum;
   }
 };
 
@@ -73,8 +123,17 @@ class TimeScheme {
 
   // The balance of an increment (manual, eq. S2):
   // inertia_of_end M V1 + c1 K V1 = inertia_of_start M V0 - K (U0 + c0 V0) + forces.
-  double c0(const Damping& d) const { return g_ * (1 - g_) * dt + g_ * beta(d); }
-  double c1(const Damping& d) const { return (1 - g_) * (1 - g_) * dt + (1 - g_) * beta(d); }
+  double c0(const Damping& d) const { return g_ * (1 - g_) * dt * stiffening(d) + g_ * beta(d); }
+  double c1(const Damping& d) const { return (1 - g_) * (1 - g_) * dt * stiffening(d) + (1 - g_) * beta(d); }
+  // The mean elongation of a branch is `kept` of the sum of that at the start and (1-g) dt times the mean velocity, so
+  // that K counts so many times in an increment (manual, eq. D24).
+  double kept(const Branch& b) const { return 1.0 / (1.0 + (1 - g_) * dt * b.rate); }
+  double stiffening(const Damping& d) const {
+    double sum = 1.0;
+    if (is_static) return sum;
+    for (const Branch& b : d.branches) sum += b.strength * kept(b);
+    return sum;
+  }
   double inertia_of_start(const Damping& d) const { return inverse_dt() - g_ * alpha(d); }  // 1/s
   double inertia_of_end(const Damping& d) const { return inverse_dt() + (1 - g_) * alpha(d); }
   double alpha(const Damping& d) const { return is_static ? 0.0 : d.mass; }
@@ -102,7 +161,8 @@ class TimeScheme {
     return omega2 > 0.0 ? 2.0 / std::sqrt(omega2) : std::numeric_limits<double>::infinity();
   }
   static double longest_damped(double longest, const Damping& d) {
-    return std::isfinite(longest) ? std::sqrt(d.stiffness * d.stiffness + longest * longest) - d.stiffness : longest;
+    if (!std::isfinite(longest)) return longest;
+    return std::sqrt(d.stiffness * d.stiffness + longest * longest / d.of_sudden_motion()) - d.stiffness;
   }
 
  private:

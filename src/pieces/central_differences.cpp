@@ -20,16 +20,22 @@ CentralDifferences::CentralDifferences(PieceSetup setup, std::shared_ptr<const E
   const Vec& mass = node_masses();
   const size_t n = static_cast<size_t>(mass.size());
   const Damping& damping = setup_.body->part->material.damping;
-  const double alpha = setup_.scheme.alpha(damping), beta = setup_.scheme.beta(damping);
+  const double alpha = setup_.scheme.alpha(damping);
   dt_ = setup_.scheme.dt;
   keep_ = setup_.scheme.inertia_of_start(damping) / setup_.mass_share();
   for (const double m : mass) inverse_.push_back(1.0 / (setup_.mass_share() * m));
   unknown_masses_ = mass.replicate(1, 3).transpose().reshaped();
   for (std::vector<double>* field : {&d_, &v_, &y_, &base_, &start_force_, &start_, &v_interval_})
     field->assign(4 * n, 0.0);
-  if (alpha > 0.0 || beta > 0.0) v_old_.assign(4 * n, 0.0);
-  if (beta > 0.0)
-    for (std::vector<double>* field : {&elastic_, &damping_force_}) field->assign(4 * n, 0.0);
+  if (alpha > 0.0 || damping.is_of_strain()) v_old_.assign(4 * n, 0.0);
+  if (damping.is_of_strain())
+    for (std::vector<double>* field : {&elastic_, &pull_of_motion_}) field->assign(4 * n, 0.0);
+  for (const Branch& b : damping.branches)
+    branches_.push_back({b.strength,
+                         {b.rate, dt_},
+                         {b.rate, 0.5 * dt_},
+                         std::vector<double>(4 * n, 0.0),
+                         std::vector<double>(4 * n, 0.0)});
   if (is_tuned())
     for (std::vector<double>* field : {&free_pull_, &coupled_, &p_, &p_old_}) field->assign(4 * n, 0.0);
   make_specials();
@@ -171,7 +177,7 @@ void CentralDifferences::pull() {
   if (is_damped()) v_old_ = v_;
   std::copy(base_.begin(), base_.end(), y_.begin());
   op_->stiffness->add_product(d_.data(), y_.data());
-  if (has_stiffness_damping()) add_stiffness_damping();
+  if (has_damping_of_strain()) add_damping_of_strain();
 }
 
 // The velocities without interfaces (manual, eq. S9-S10); D goes along.
@@ -206,18 +212,37 @@ void CentralDifferences::move(const std::vector<double>& motion_velocity) {
   }
 }
 
-// beta K V0: V0 is what X has moved by since the product before, so that K V0 needs none of its own (manual, eq. S14).
-void CentralDifferences::add_stiffness_damping() {
+// V0 is what X has moved by since the product before, so that K V0 needs none of its own (manual, eq. S14, S16).
+void CentralDifferences::add_damping_of_strain() {
   const double factor = setup_.scheme.beta(setup_.body->part->material.damping) / setup_.scheme.dt;
-  double *const y = y_.data(), *const elastic = elastic_.data(), *const damping = damping_force_.data();
+  double *const y = y_.data(), *const elastic = elastic_.data(), *const change = pull_of_motion_.data();
   const double* const base = base_.data();
 #pragma omp simd
   for (size_t c = 0; c < y_.size(); ++c) {
     const double now = y[c] - base[c];
-    damping[c] = factor * (now - elastic[c]);
+    change[c] = now - elastic[c];
     elastic[c] = now;
-    y[c] += damping[c];
+    y[c] += factor * change[c];
   }
+  advance_branches();
+}
+
+void CentralDifferences::advance_branches() {
+  double* const y = y_.data();
+  const double *const change = pull_of_motion_.data(), *const v = v_.data();
+  for (OwnBranch& branch : branches_) {
+    const Relaxation& over = is_ahead_ ? branch.whole : branch.half;
+    const double strength = branch.strength, left = over.left, gain = over.gain,
+                 of_change = over.gain / setup_.scheme.dt;
+    double *const e = branch.e.data(), *const force = branch.force.data();
+#pragma omp simd
+    for (size_t c = 0; c < y_.size(); ++c) {
+      e[c] = left * e[c] + gain * v[c];
+      force[c] = left * force[c] + of_change * change[c];
+      y[c] += strength * force[c];
+    }
+  }
+  is_ahead_ = true;
 }
 
 // The inverse of a tuned mass is M^-1 + M^-1 C M^-1 (manual, eq. S13): M^-1 (K X - f), and what it takes of the

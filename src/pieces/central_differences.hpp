@@ -41,6 +41,8 @@ class CentralDifferences final : public ExplicitPiece {
 
   void set_state(const Points& displacement, const Points& velocity, const Points& force,
                  const Points& interface_force) override;
+  void set_elongations(const std::vector<Points>& elongation) override;
+  std::vector<Points> elongations() const override;
   Points velocity_of_impulse(const Points& impulse) const override;
   const PieceState& state() const override;
   void restore(const PieceState& state) override;
@@ -105,6 +107,7 @@ class CentralDifferences final : public ExplicitPiece {
   void move(const std::vector<double>& motion_velocity);
   void take_momenta();
   void look_back();
+  void relax_branches();
   void start_momentum();
   // Nodes whose cells are lumped have mass times velocity; laws push them after the momenta are made.
   bool has_momentum(size_t node) const { return is_tuned() && !setup_.keeps_lumped[node]; }
@@ -113,10 +116,12 @@ class CentralDifferences final : public ExplicitPiece {
     return is_tuned() ? Vec3(pull + Eigen::Map<const Vec3>(coupled_.data() + 4 * static_cast<size_t>(node))) : pull;
   }
   void update_loads(const std::vector<double>& values);
-  void add_stiffness_damping();
+  void add_damping_of_strain();
+  void advance_branches();
   double damping_work();
+  double branch_work();
   bool is_damped() const { return !v_old_.empty(); }
-  bool has_stiffness_damping() const { return !elastic_.empty(); }
+  bool has_damping_of_strain() const { return !elastic_.empty(); }
   void book_special(Special& special, IncrementEnergy& energy);
   double at_row(int i, const Vec3& nodal) const { return setup_.rows[i].nodes[0].along.dot(nodal); }
 
@@ -129,12 +134,23 @@ class CentralDifferences final : public ExplicitPiece {
   std::vector<Special> specials_;
   std::unordered_map<int, size_t> index_;  // of a node in them
 
+  // A branch of the material's damping, held half an increment ahead of the velocities as D is: elongation, and K times
+  // it. Until the first increment both are those of the start.
+  struct OwnBranch {
+    double strength;
+    Relaxation whole, half;  // of an increment
+    std::vector<double> e, force;
+  };
+  std::vector<OwnBranch> branches_;
+  bool is_ahead_ = false;
+  double in_branches_ = 0.0;  // J, stored
+
   // As the nodes' D and V: K X - f, and beta K V0; K U - f at the step's start with the loads at hand, and without; V
   // at the start of the deck's time step.
   std::vector<double> y_, base_, start_force_, v_interval_;
   std::vector<double> v_old_;  // with damping only
-  // With stiffness damping only: K (X - U_start) of the increment at hand, beta K V0.
-  std::vector<double> elastic_, damping_force_;
+  // With damping of strain only: K (X - U_start) of the increment at hand, dt K V0.
+  std::vector<double> elastic_, pull_of_motion_;
   // With a tuned mass only: M^-1 (K X - f) on free directions, C times that, momenta and those before.
   std::vector<double> free_pull_, coupled_, p_, p_old_;
   double start_strain_ = 0.0, interval_ = 0.0;  // J, at U of the step's start; s, since the deck's time step began

@@ -1,6 +1,7 @@
 // State, energies and fields of an explicit piece (manual, eq. E3).
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "pieces/central_differences.hpp"
 
 namespace dygita {
@@ -63,6 +64,7 @@ void CentralDifferences::set_state(const Points& displacement, const Points& vel
   put(0.5 * dt * v, d_);
   start_strain_ = 0.5 * displacement.cwiseProduct(elastic).sum();
   look_back();
+  relax_branches();
   start_momentum();
   has_forces_ = false;
   begin_interval();
@@ -78,10 +80,47 @@ void CentralDifferences::look_back() {
   for (size_t c = 0; c < elastic_.size(); ++c) elastic_[c] = y_[c] - base_[c];
 }
 
+void CentralDifferences::relax_branches() {
+  for (OwnBranch& branch : branches_)
+    for (std::vector<double>* field : {&branch.e, &branch.force}) std::fill(field->begin(), field->end(), 0.0);
+  is_ahead_ = false;
+  in_branches_ = 0.0;
+}
+
+// What is stored is e.K e of half an increment before and after, as in E3.
+void CentralDifferences::set_elongations(const std::vector<Points>& elongation) {
+  relax_branches();
+  if (branches_.empty()) return;
+  CHECK(elongation.size() >= branches_.size(), "an elongation a branch");
+  const double half = 0.5 * setup_.scheme.dt;
+  std::vector<double> pull(v_.size(), 0.0);
+  op_->stiffness->add_product(v_.data(), pull.data());
+  double of_motion = 0.0;
+  for (size_t c = 0; c < v_.size(); ++c) of_motion += half * half * v_[c] * pull[c];
+  for (size_t b = 0; b < branches_.size(); ++b) {
+    OwnBranch& own = branches_[b];
+    put(elongation[b], own.e);
+    op_->stiffness->add_product(own.e.data(), own.force.data());
+    double square = -of_motion;
+    for (size_t c = 0; c < v_.size(); ++c) square += own.e[c] * own.force[c];
+    in_branches_ += 0.5 * own.strength * square;
+  }
+}
+
+std::vector<Points> CentralDifferences::elongations() const {
+  std::vector<Points> now;
+  for (const OwnBranch& branch : branches_)
+    now.push_back(is_ahead_ ? Points(branch.half.left * nodal(branch.e) + branch.half.gain * nodal(v_))
+                            : nodal(branch.e));
+  return now;
+}
+
 const PieceState& CentralDifferences::state() const {
   const Points u = displacement(), v = velocity();
   shown_.u = u.reshaped();
   shown_.v = v.reshaped();
+  shown_.branches.clear();
+  for (const Points& e : elongations()) shown_.branches.push_back({e.reshaped(), {}, {}});
   return shown_;
 }
 
@@ -90,7 +129,10 @@ void CentralDifferences::restore(const PieceState& state) {
   const Points v = state.v.reshaped(3, n);
   put(v, v_);
   put(Points(state.u.reshaped(3, n)) - nodal(start_) + 0.5 * setup_.scheme.dt * v, d_);
-  if (has_stiffness_damping()) look_back();
+  if (has_damping_of_strain()) look_back();
+  std::vector<Points> elongation;
+  for (const BranchState& branch : state.branches) elongation.push_back(branch.e.reshaped(3, n));
+  set_elongations(elongation);
   start_momentum();
 }
 
@@ -145,7 +187,7 @@ void CentralDifferences::start_momentum() {
 IncrementEnergy CentralDifferences::stored_energy() const {
   const double dt = setup_.scheme.dt;
   const Vec& mass = node_masses();
-  const bool is_damped = has_stiffness_damping();
+  const bool is_damped = has_damping_of_strain();
   double kinetic = 0.0, strain = 0.0;
   for (size_t i = 0; i < inverse_.size(); ++i) {
     double v2 = 0.0, pv = 0.0;
@@ -159,7 +201,7 @@ IncrementEnergy CentralDifferences::stored_energy() const {
   }
   IncrementEnergy energy;
   energy.kinetic = 0.5 * kinetic;
-  energy.strain = start_strain_ + 0.5 * strain;
+  energy.strain = start_strain_ + 0.5 * strain + in_branches_;
   return energy;
 }
 
@@ -176,8 +218,26 @@ double CentralDifferences::damping_work() {
       for (size_t c = 4 * i; c < 4 * i + 3; ++c) v2 += (v_old_[c] + v_[c]) * (v_old_[c] + v_[c]);
     by_mass += mass[static_cast<Eigen::Index>(i)] * v2;
   }
-  for (size_t c = 0; c < damping_force_.size(); ++c) by_stiffness += (v_old_[c] + v_[c]) * damping_force_[c];
-  return dt * (0.25 * alpha * by_mass + 0.5 * by_stiffness);
+  if (const double beta = setup_.scheme.beta(damping); beta > 0.0)
+    for (size_t c = 0; c < v_.size(); ++c) by_stiffness += beta / dt * (v_old_[c] + v_[c]) * pull_of_motion_[c];
+  return dt * (0.25 * alpha * by_mass + 0.5 * by_stiffness) + branch_work();
+}
+
+// What has been done on the branches in the increment, less what they store more (manual, eq. S16).
+double CentralDifferences::branch_work() {
+  const double dt = setup_.scheme.dt, before = in_branches_;
+  double work = 0.0;
+  in_branches_ = 0.0;
+  for (const OwnBranch& branch : branches_) {
+    double own = 0.0, square = 0.0;
+    for (size_t c = 0; c < v_.size(); ++c) {
+      own += (v_old_[c] + v_[c]) * branch.force[c];
+      square += (branch.whole.left * branch.e[c] + branch.whole.gain * v_[c]) * branch.force[c];
+    }
+    work += 0.5 * dt * branch.strength * own;
+    in_branches_ += 0.5 * branch.strength * square;
+  }
+  return work - (in_branches_ - before);
 }
 
 // What non-reflecting supports take and moving ones give, and the sums that means over the deck's time step need.
@@ -276,10 +336,11 @@ double explicit_bytes(const PieceSetup& setup, bool shares) {
 
 PieceFigures CentralDifferences::figures() const {
   PieceFigures figures;
-  figures.bytes =
-      op_->stiffness->bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
-      8.0 * (29.0 + (is_damped() ? 4.0 : 0.0) + (has_stiffness_damping() ? 8.0 : 0.0) + (is_tuned() ? 16.0 : 0.0)) *
-          inverse_.size();
+  figures.bytes = op_->stiffness->bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
+                  8.0 *
+                      (29.0 + (is_damped() ? 4.0 : 0.0) + (has_damping_of_strain() ? 8.0 : 0.0) +
+                       8.0 * static_cast<double>(branches_.size()) + (is_tuned() ? 16.0 : 0.0)) *
+                      inverse_.size();
   return figures;
 }
 

@@ -15,6 +15,7 @@ IncrementEnergy ImplicitPiece::stored_energy() const {
     const std::vector<double> held = op_.stiffness_times_held(displacement());
     for (size_t i = 0; i < held.size(); ++i) energy.strain += 0.5 * s.held_u[i] * held[i];
   }
+  for (size_t b = 0; b < s.branches.size(); ++b) energy.strain += 0.5 * branches()[b].strength * square(s.branches[b]);
   if (!op_.scheme().is_static) energy.kinetic = kinetic_energy();
   return energy;
 }
@@ -135,7 +136,7 @@ void ImplicitPiece::add_work_of_motions(const Points& interface_force, double& w
 
 ImplicitPiece::Means ImplicitPiece::means_of_increment() const {
   const TimeScheme& scheme = op_.scheme();
-  // The displacement that K multiplies in the equation of the increment: U0 + c0 V0 + c1 V1.
+  // The displacement that K multiplies in the equation of the increment: U0 + c0 V0 + c1 V1, and what branches recall.
   const double old_share = op_.c0() - scheme.from_start(scheme.dt), new_share = op_.c1() - scheme.from_end(scheme.dt);
   const FreeUnknowns& unknowns = op_.unknowns();
   std::vector<double> held(op_.held().size()), change(held.size(), 0.0);
@@ -143,6 +144,10 @@ ImplicitPiece::Means ImplicitPiece::means_of_increment() const {
     held[i] = state_.held_u[i] + old_share * work_.held_v_old[i] + new_share * state_.held_v[i];
   Vec there = state_.u + old_share * work_.v_old + new_share * state_.v;
   for (const int i : op_.mass().massless()) there[i] = state_.u[i] - scheme.from_start(scheme.dt) * state_.v[i];
+  if (!branches().empty()) {
+    there += work_.recalled.e;
+    for (size_t i = 0; i < held.size(); ++i) held[i] += work_.recalled.held[i];
+  }
   Means means{unknowns.expand(there, held), work_.nodal_force, {}, {}};
   if (scheme.is_static) return means;
   for (size_t i = 0; i < held.size(); ++i) change[i] = (state_.held_v[i] - work_.held_v_old[i]) / scheme.dt;

@@ -36,6 +36,8 @@ void ImplicitPiece::set_state(const Points& displacement, const Points& velocity
     s.p += op_.c0() / op_.c1() * s.w;
   s.momentum = op_.momentum(s.v, s.held_v);
   s.q = Vec::Zero(n_rows());
+  s.branches.assign(branches().size(),
+                    {Vec::Zero(op_.n_free()), std::vector<double>(held.size(), 0.0), Vec::Zero(op_.n_free())});
   if (op_.has_motions()) s.held_pull = op_.pull_of_held(s.held_v);
   s.held_reaction = op_.stiffness_times_held(displacement);
   for (size_t i = 0; i < held.size(); ++i)
@@ -82,6 +84,7 @@ void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion
   work.w_old = state_.w;
   const Vec new_force = op_.unknowns().restrict_nodal(force);
   work.residual = new_force - state_.p;
+  recall_branches();
   if (!scheme.is_static) {
     work.residual += mass_factor * state_.momentum;
     op_.apply_rates(state_.v, state_.held_v, -scheme.from_start(1.0), work.residual);
@@ -120,6 +123,7 @@ void ImplicitPiece::interface_velocity(Eigen::Ref<const Vec> /*q*/, Eigen::Ref<V
 void ImplicitPiece::resynchronise() {
   state_.w = op_.c1() * op_.stiffness_times(velocity());
   state_.p = op_.stiffness_times(displacement()) + op_.c0() / op_.c1() * state_.w;
+  for (BranchState& b : state_.branches) b.force = op_.stiffness_times(op_.unknowns().expand(b.e, b.held));
 }
 
 // W1 from the solved equation itself, then P by recurrence: no product by K.
@@ -162,6 +166,7 @@ IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> given, const Points*
   }
 
   IncrementEnergy energy = op_.scheme().is_static ? static_works(v_mean) : dynamic_works(v_mean);
+  advance_branches(v_mean, energy);
   const IncrementEnergy stored = stored_energy();
   energy.kinetic = stored.kinetic;
   energy.strain = stored.strain;
@@ -273,7 +278,7 @@ Points ImplicitPiece::reactions(const Points& interface_force) const {
 
 PieceFigures ImplicitPiece::figures() const {
   PieceFigures figures;
-  figures.bytes = 8.0 * 12.0 * op_.n_free();
+  figures.bytes = 8.0 * (12.0 + 2.0 * static_cast<double>(branches().size())) * op_.n_free();
   figures.is_in_single_precision = op_.setup().precision == Precision::single_precision;
   return figures;
 }

@@ -35,6 +35,8 @@ class ImplicitPiece : public Piece {
 
   void set_state(const Points& displacement, const Points& velocity, const Points& force,
                  const Points& interface_force) override;
+  void set_elongations(const std::vector<Points>& elongation) override;
+  std::vector<Points> elongations() const override;
   const PieceState& state() const override { return state_; }
   void restore(const PieceState& state) override { state_ = state; }
   IncrementEnergy stored_energy() const override;
@@ -70,6 +72,7 @@ class ImplicitPiece : public Piece {
     std::vector<double> held_v_old, held_v_new, held_load;  // held_load: mean external force, N
     Vec change;                                             // K (U1 - U0), N, where there are unknowns without mass
     Vec held_rows;                                          // m/s, at the rows, of moving supports; empty: none
+    BranchState recalled;  // what the branches' elongations at the start bring to that which K multiplies
   };
   // The increment is set up: x is its right-hand side less what interface data bring.
   virtual void prepare(double /*quiet*/) {}
@@ -93,6 +96,10 @@ class ImplicitPiece : public Piece {
   void advance_forces(Eigen::Ref<const Vec> q, bool is_moved);
   void resynchronise();
   bool has_past() const;
+  const std::vector<Branch>& branches() const;
+  void recall_branches();
+  void advance_branches(const Vec& v_mean, IncrementEnergy& energy);
+  double square(const BranchState& branch) const;
   std::vector<double> held_acceleration() const;  // m/s^2, mean over the last increment
   Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
   // What reactions follow from, mean over an increment or over several: the displacement that K multiplies in S1 and

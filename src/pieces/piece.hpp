@@ -39,6 +39,14 @@ struct IncrementEnergy {
   double stored = 0.0;  // in interfaces, more than before
 };
 
+// A branch of the material's damping: its elongation on free unknowns and along held directions (m), and K times it on
+// the free unknowns (N).
+struct BranchState {
+  Vec e;
+  std::vector<double> held;
+  Vec force;
+};
+
 // What a piece carries from one increment to the next; vectors over its free unknowns, in its own order. A copy is all
 // that it takes to go back (windows of several time steps).
 struct PieceState {
@@ -51,6 +59,7 @@ struct PieceState {
   Vec held_pull;                       // N, of A, what the motions' velocities bring to the free unknowns
   std::vector<double> held_u, held_v;  // of held directions, m, m/s
   std::vector<double> held_reaction;   // N, of whatever holds them
+  std::vector<BranchState> branches;   // in a dynamic step, of all that the material has
   int n_since_product = 0;             // increments since P and W were computed from K itself
 };
 
@@ -105,6 +114,10 @@ class Piece {
   // balance with them; or as it was at another time.
   virtual void set_state(const Points& displacement, const Points& velocity, const Points& force,
                          const Points& interface_force) = 0;
+  // Elongations of the branches of the material's damping in a dynamic step (m, 3 x n_nodes each), which set_state has
+  // relaxed; there may be more than the material has. Those now: none in a static step.
+  virtual void set_elongations(const std::vector<Points>& /*elongation*/) {}
+  virtual std::vector<Points> elongations() const { return {}; }
   // Velocities after a jump: `held` has those of held directions after it, `before` all as they were. What holds them
   // gives an impulse, which others feel through a mass matrix.
   virtual Points after_jump(const Points& /*before*/, const Points& held) const { return held; }

@@ -286,6 +286,15 @@ void add_sums(LinearAssembly& assembly) {
   assembly.stiffness += SparseMatrix(SparseMatrix(assembly.springs.transpose()) * assembly.springs);
 }
 
+void add_relaxing(const Damping& damping, const SparseMatrix& stiffness, LinearAssembly& assembly) {
+  for (auto& [known, sum] : assembly.relaxing)
+    if (known == damping) {
+      sum += stiffness;
+      return;
+    }
+  assembly.relaxing.emplace_back(damping, stiffness);
+}
+
 void add_matrices(const Problem& problem, LinearAssembly& assembly) {
   const int n = static_cast<int>(assembly.map.cols());
   assembly.stiffness.resize(n, n);
@@ -312,6 +321,7 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
       assembly.damping += SparseMatrix(transposed * c_map);
     }
     const Damping& damping = material.damping;
+    if (!damping.branches.empty()) add_relaxing(damping, k, assembly);
     if (damping.mass == 0.0 && damping.stiffness == 0.0) continue;
     if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
     assembly.damping += damping.mass * m + damping.stiffness * k;

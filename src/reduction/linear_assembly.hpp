@@ -33,6 +33,9 @@ struct SpreadSum {
 struct LinearAssembly {
   SparseMatrix stiffness, mass;  // n x n; N/m, kg
   SparseMatrix damping;          // n x n, N s/m; empty where no material and no interface has any
+  // Of materials damped over a band, each with the stiffness of its parts (n x n, N/m): their damping depends on the
+  // frequency.
+  std::vector<std::pair<Damping, SparseMatrix>> relaxing;
   // Where sums are held, else empty: the stiffness without the springs that hold them, and of each spring the row whose
   // square is its energy.
   SparseMatrix cells, springs;

@@ -170,13 +170,21 @@ Vec scale_shapes(const Problem& problem, Mat& shapes) {
 Vec damping_ratios(const LinearAssembly& assembly, const Eigenmodes& modes) {
   constexpr double rounding = 1e-12;
   Vec ratios = Vec::Zero(modes.omegas.size());
+  for (const auto& [damping, stiffness] : assembly.relaxing)  // by their share of the strain energy
+    for (Eigen::Index m = 0; m < ratios.size(); ++m) {
+      const double omega = modes.omegas[m];
+      if (omega <= 0.0) continue;
+      const Vec phi = modes.vectors.col(m);
+      ratios[m] +=
+          damping.ratio_of_branches(omega / (2 * std::numbers::pi)) * phi.dot(stiffness * phi) / (omega * omega);
+    }
   if (assembly.damping.rows() == 0) return ratios;
   const double fastest = assembly.damping.diagonal().cwiseQuotient(assembly.mass.diagonal()).maxCoeff();
   for (Eigen::Index m = 0; m < ratios.size(); ++m) {
     const Vec phi = modes.vectors.col(m);
     const double damping = phi.dot(assembly.damping * phi);
     if (modes.omegas[m] > 0.0)
-      ratios[m] = damping / (2 * modes.omegas[m]);
+      ratios[m] += damping / (2 * modes.omegas[m]);
     else if (damping > rounding * fastest)
       ratios[m] = std::numeric_limits<double>::quiet_NaN();
   }

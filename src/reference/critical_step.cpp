@@ -55,6 +55,7 @@ double highest_frequency(InternalForce& internal, const PenaltySprings& springs,
 
 double critical_step(double frequency, const InternalForce& internal) {
   if (frequency == 0.0) return std::numeric_limits<double>::infinity();
+  frequency *= std::sqrt(internal.largest_of_sudden_motion());
   const double damping = (internal.has_viscosity() ? usual_damping_of_viscosity : 0.0) +
                          0.5 * internal.largest_stiffness_damping() * frequency;
   return 2.0 / frequency * (std::sqrt(1.0 + damping * damping) - damping);

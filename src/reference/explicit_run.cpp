@@ -91,6 +91,10 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
   shared_.average(velocity_);
   find_mass_damping(bodies);
   find_hourglass_force(bodies, memory);
+  for (size_t b = 0; b < state_.elongation.size(); ++b)
+    for (int part = 0; part < internal_.n_parts(); ++part)
+      internal_.set_elongation(part, static_cast<int>(b), state_.elongation[b][static_cast<size_t>(part)]);
+  stored_ = start_in_branches_ = internal_.energy_in_branches();
   if (memory.first.size() > 0) before_ = prestress_ - memory.first;
   for (const Motion& motion : model_.conditions.motions)
     motions_new_.push_back(motion.at_start ? motion.at_start(model_.step->dt) : 0.0);
@@ -197,7 +201,7 @@ void ExplicitRun::damp_masses(double tau) {
 void ExplicitRun::evaluate_forces(double dt, bool has_energy) {
   const CellEnergy energy = internal_.damped(moved_, velocity_, dt, has_energy, force_);
   cells_ = {energy.strain, energy.hourglass, cells_.dissipated + energy.dissipated};
-  if (internal_.has_stiffness_damping()) resisted_ = before_.size() > 0 ? Vec(force_ + before_) : force_;
+  if (internal_.has_damping_of_strain()) resisted_ = before_.size() > 0 ? Vec(force_ + before_) : force_;
   springs_.add_force(moved_, force_);
 }
 
@@ -214,6 +218,7 @@ void ExplicitRun::solve_increment(int increment) {
     const bool is_first = i == 0, is_last = i + 1 == n_substeps_;
     apply_loads(is_first ? t : t - 0.5 * h, t + 0.5 * h);
     kick(is_first ? 0.5 * h : h, is_first ? 0.0 : 0.5, (i + 0.5) / n_substeps_, h);
+    internal_.advance_branches(velocity_, h);
     evaluate_forces(h, is_last);
     springs_.weigh(is_last ? 0.5 : 1.0);
   }
@@ -225,16 +230,17 @@ void ExplicitRun::solve_increment(int increment) {
 // What the increment did, and what is stored now (eq. X13).
 void ExplicitRun::book_energies() {
   Energies& energies = state_.energies;
-  double dissipated = cells_.dissipated;
-  if (internal_.has_stiffness_damping()) {
+  double dissipated = cells_.dissipated, in_branches = 0.0;
+  if (internal_.has_damping_of_strain()) {
     // Not from the damped forces: what resisted took more than what is stored.
     const double before = stored_;
     cells_ = internal_.elastic(moved_, elastic_);
-    stored_ = cells_.strain + cells_.hourglass + (before_.size() > 0 ? before_.dot(moved_) : 0.0);
+    in_branches = internal_.energy_in_branches();
+    stored_ = cells_.strain + cells_.hourglass + (before_.size() > 0 ? before_.dot(moved_) : 0.0) + in_branches;
     dissipated = internal_work_ - (stored_ - before);
   }
   energies.kinetic = 0.5 * velocity_.cwiseAbs2().dot(mass_);
-  energies.strain = start_strain_ + prestress_.dot(moved_) + cells_.strain;
+  energies.strain = start_strain_ + prestress_.dot(moved_) + cells_.strain + in_branches - start_in_branches_;
   double hourglass = start_hourglass_ + cells_.hourglass;
   if (hourglass_force_.size() > 0) {
     const double work = hourglass_force_.dot(moved_);
@@ -297,6 +303,7 @@ void ExplicitRun::finish(ExplicitMemory& memory) {
     const int part = static_cast<int>(i);
     model_.pieces[i]->set_state(displacement(part), velocity(part), model_.external_force(part, state_),
                                 interface_force(*model_.problem, *model_.surfaces, state_, part));
+    model_.pieces[i]->set_elongations(internal_.elongations(part));
   }
   internal_.elastic(moved_, elastic_);
   if (memory.first.size() == 0) memory.first = prestress_;

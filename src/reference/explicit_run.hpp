@@ -85,7 +85,7 @@ class ExplicitRun : public NodalFields {
   Vec resisted_, elastic_;  // internal force with damping, without (stiffness damping only)
   Vec before_;              // N, of prestress_ what explicit steps before this one have brought; empty: nothing
 
-  double start_strain_ = 0.0, stored_ = 0.0, spring_energy_ = 0.0, supplied_ = 0.0;
+  double start_strain_ = 0.0, start_in_branches_ = 0.0, stored_ = 0.0, spring_energy_ = 0.0, supplied_ = 0.0;
   double start_hourglass_ = 0.0, hourglass_ = 0.0;
   CellEnergy cells_;                                                // stored ones now; dissipated in the increment
   double load_work_ = 0.0, drag_work_ = 0.0, internal_work_ = 0.0;  // of the increment

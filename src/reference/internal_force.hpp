@@ -19,12 +19,22 @@ class InternalForce {
   // Force (N) of displacements (m), without any damping: force = K displacement.
   CellEnergy elastic(const Vec& displacement, Vec& force);
   // The same with bulk viscosity over the dt (s) since the last call and lagged stiffness damping by the velocity
-  // (m/s): force = K (displacement + beta velocity) + viscosity. Without has_energy the elastic energies are left out.
+  // (m/s), and by its branches: force = K (displacement + beta velocity + sum of strength e) + viscosity. Without
+  // has_energy the elastic energies are left out.
   CellEnergy damped(const Vec& displacement, const Vec& velocity, double dt, bool has_energy, Vec& force);
   // The next viscosity sees no rate up to these displacements.
   void start_from(const Vec& displacement);
 
-  bool has_stiffness_damping() const { return has_stiffness_damping_; }
+  // The branches of all parts (m, e in the order of the dofs): as they are given, a piece's fields one after the other
+  // in each; over a substep (s) of constant velocities; of a part; their energy, J, by products.
+  void set_elongation(int part, int branch, const Points& e);
+  void advance_branches(const Vec& velocity, double dt);
+  std::vector<Points> elongations(int part) const;
+  double energy_in_branches();
+  bool has_branches() const { return !elongation_.empty(); }
+  double largest_of_sudden_motion() const;
+
+  bool has_damping_of_strain() const { return has_damping_of_strain_; }
   bool has_viscosity() const { return has_viscosity_; }
   double largest_stiffness_damping() const;  // s
   double bytes() const;
@@ -34,13 +44,15 @@ class InternalForce {
     std::vector<UniformStrainCells> cells;       // with their viscosity where there is no stiffness damping
     std::vector<UniformStrainCells> viscous;     // the viscosity alone
     std::unique_ptr<SymmetricBlocks> stiffness;  // of what the cells do not resist with; may be null
-    double beta = 0.0;                           // s
+    Damping damping;
   };
+  CellEnergy elastic_of(const Part& part, const double* displacement, double* force);
   CellEnergy multiply(const Part& part, const double* displacement, double* force, bool has_energy);
 
   std::vector<Part> parts_;
   std::vector<int> first_;
-  bool has_stiffness_damping_ = false, has_viscosity_ = false;
+  bool has_damping_of_strain_ = false, has_viscosity_ = false;
+  std::vector<Vec> elongation_;  // of as many branches as the part has that has most
   Vec damped_, product_;
 };
 

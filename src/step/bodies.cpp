@@ -39,11 +39,11 @@ void take_off(const std::vector<FaceOrRegion>& places, const SubstructurePtr& pa
 void tell_those_that_keep_mass(const Problem& problem) {
   std::vector<std::string> names;
   for (const SubstructurePtr& part : problem.substructures)
-    if (part->material.damping.stiffness > 0.0) names.push_back(part->name);
+    if (part->material.damping.is_of_strain()) names.push_back(part->name);
   if (!names.empty())
     warn(
         fmt::format("problem '{}': 'massless_contact' requires mass at contact nodes of {} and of the parts they "
-                    "touch, because of stiffness-proportional damping (damping_ratio, damping.stiffness)",
+                    "touch, because of damping by strain (damping_ratio, damping.stiffness)",
                     problem.name, list_of_names(names)));
 }
 
@@ -51,7 +51,7 @@ void tell_those_that_keep_mass(const Problem& problem) {
 std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vector<Surface>& surfaces, int i_part) {
   const SubstructurePtr& part = problem.substructures[i_part];
   std::vector<char> marked(part->mesh->n_nodes(), 0);
-  if (part->material.damping.stiffness > 0.0) return marked;  // the force at the end of a step would not be symmetric
+  if (part->material.damping.is_of_strain()) return marked;  // the force at the end of a step would not be symmetric
   std::vector<int> n_surfaces(marked.size(), 0);
   const auto mark = [&](const Surface& surface, char value) {
     for (const auto& [part_here, trace] :

@@ -29,7 +29,7 @@ constexpr double safety = 0.98;
 // factor are so many n^1.5; a solve and a product by H read so much an entry (in single precision, packed, they are
 // bound by unpacking); the rest of an iteration, of an interface unknown; making the factor, of n^2, and H, of n^3.
 constexpr double explicit_unknown = 95.0, explicit_pair = 40.0, tuned_unknown = 80.0, damped_unknown = 60.0,
-                 explicit_point = 1100.0, fill = 1.4;
+                 branch_unknown = 45.0, explicit_point = 1100.0, fill = 1.4;
 constexpr double spread_point = 10000.0;  // between meshes that do not match: some eight rounds
 constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 7.0;
 constexpr double rest_of_iteration = 1000.0, factorising = 16.0, condensing = 0.5;
@@ -39,11 +39,13 @@ struct Size {
   double pairs = 0.0;          // of nodes that share a cell
   double spread_points = 0.0;  // between meshes that do not match; half of each interface's
   bool is_damped = false;      // by stiffness
+  double branches = 0.0;       // of damping over a band
 };
 
 // Of a whole substructure: what an increment reads.
 double explicit_cost(const Size& size, bool is_tuned) {
-  return (explicit_unknown + (is_tuned ? tuned_unknown : 0.0) + (size.is_damped ? damped_unknown : 0.0)) *
+  return (explicit_unknown + (is_tuned ? tuned_unknown : 0.0) + (size.is_damped ? damped_unknown : 0.0) +
+          branch_unknown * size.branches) *
              size.unknowns +
          explicit_pair * size.pairs + explicit_point * size.interface_unknowns / 6.0 +
          spread_point * size.spread_points;
@@ -95,9 +97,11 @@ std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::
     if (s.part_2 >= 0) spread[s.part_2] += 0.5 * s.n_points();
   }
   std::vector<Size> sizes;
-  for (size_t i = 0; i < nodes.size(); ++i)
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const Damping& damping = problem.substructures[i]->material.damping;
     sizes.push_back({3.0 * problem.substructures[i]->mesh->n_nodes(), 3.0 * static_cast<double>(nodes[i].size()),
-                     pairs[i], spread[i], problem.substructures[i]->material.damping.stiffness > 0.0});
+                     pairs[i], spread[i], damping.is_of_strain(), static_cast<double>(damping.branches.size())});
+  }
   return sizes;
 }
 
@@ -249,7 +253,7 @@ void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::ve
 void longest_steps(const Problem& problem, const std::vector<Body>& bodies, const Cut& cut,
                    const Conditions& conditions, const std::vector<Integration::Part>& parts,
                    std::vector<double>& longest) {
-  std::map<std::tuple<const StoredMatrices*, const Mass*, double, bool>, int> free_ones;
+  std::map<std::tuple<const StoredMatrices*, const Mass*, double, double, bool>, int> free_ones;
   std::vector<int> first(bodies.size(), -1);  // equal to it; itself: asked
   std::vector<std::unordered_map<int, Held>> held(bodies.size());
   for (int p = 0; p < static_cast<int>(bodies.size()); ++p) {
@@ -258,12 +262,13 @@ void longest_steps(const Problem& problem, const std::vector<Body>& bodies, cons
         asked_of(problem, *problem.substructures[part]) == IntegrationChoice::implicitly)
       continue;
     held[p] = held_of(cut, p, conditions);
-    const double beta = problem.substructures[part]->material.damping.stiffness;
-    first[p] =
-        held[p].empty()
-            ? free_ones.try_emplace({bodies[p].matrices.get(), bodies[p].mass.get(), beta, parts[part].is_tuned}, p)
-                  .first->second
-            : p;
+    const Damping& damping = problem.substructures[part]->material.damping;
+    first[p] = held[p].empty() ? free_ones
+                                     .try_emplace({bodies[p].matrices.get(), bodies[p].mass.get(), damping.stiffness,
+                                                   damping.of_sudden_motion(), parts[part].is_tuned},
+                                                  p)
+                                     .first->second
+                               : p;
   }
   std::vector<double> speed(parts.size(), 0.0);
   for (size_t i = 0; i < parts.size(); ++i)

@@ -60,6 +60,16 @@ std::vector<Points> elastic_forces(const StepModel& model, const State& state) {
   return elastic;
 }
 
+// The branches of material damping, in dynamic steps: in a static one they are relaxed.
+void set_branches(StepModel& model, const State& state) {
+  if (state.elongation.empty() || model.scheme.is_static) return;
+  std::vector<Points> elongation(state.elongation.size());
+  for (const int i : model.here) {
+    for (size_t b = 0; b < elongation.size(); ++b) elongation[b] = state.elongation[b][i];
+    model.pieces[i]->set_elongations(elongation);
+  }
+}
+
 // The pieces of a substructure start from its fields. Forces across a cut are not part of the state: each piece is in
 // balance by itself, and what the substructure as a whole has too much at a node is its owner's.
 void set_pieces(StepModel& model, const State& state) {
@@ -82,19 +92,20 @@ void set_pieces(StepModel& model, const State& state) {
     cut.keep_owned(i, imbalance);
     model.pieces[i]->set_state(u, v, force, elastic[i] - force - imbalance);
   }
+  set_branches(model, state);
   start_cut_momenta(model);
 }
 
 // A system of all pieces starts from the fields of all.
 void complete(const Cut& cut, State& state) {
-  for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force})
+  for (std::vector<Points>* field : state.fields())
     *field = fields_of_all_pieces(cut, [&](int piece) { return (*field)[piece]; });
 }
 
 void leave_to_others(const Cut& cut, State& state) {
   for (int i = 0; i < cut.n_pieces(); ++i)
     if (!cut.is_here(i))
-      for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force}) (*field)[i].resize(3, 0);
+      for (std::vector<Points>* field : state.fields()) (*field)[i].resize(3, 0);
 }
 
 // Explicit pieces keep the loads that are theirs: a field of forces in each increment would cost what a product does.
@@ -333,7 +344,14 @@ void end_step(const StepModel& model, State& state) {
     state.velocity[i] = model.pieces[i]->velocity();
     if (model.scheme.is_static) state.velocity[i].setZero();
     state.force[i] = model.piece_force(i, state);
+    const std::vector<Points> elongation = model.pieces[i]->elongations();
+    for (size_t b = 0; b < state.elongation.size(); ++b)
+      if (b < elongation.size())
+        state.elongation[b][i] = elongation[b];
+      else
+        state.elongation[b][i].setZero();
   }
+  for (std::vector<Points>& branch : state.elongation) give_to_copies(cut, model.is_assembled, branch);
   give_to_copies(cut, model.is_assembled, state.displacement);
   give_to_copies(cut, model.is_assembled, state.velocity);
   if (model.scheme.is_static) keep_reactions(model, state);

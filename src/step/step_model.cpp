@@ -25,8 +25,10 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
 
 State initial_state(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut) {
   State state;
+  for (const SubstructurePtr& part : problem.substructures)
+    state.elongation.resize(std::max(state.elongation.size(), part->material.damping.branches.size()));
   for (int i = 0; i < cut.n_pieces(); ++i)
-    for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force})
+    for (std::vector<Points>* field : state.fields())
       field->emplace_back(Points::Zero(3, cut.is_here(i) ? cut.piece(i).body->mesh->n_nodes() : 0));
   state.anchor.resize(problem.substructures.size());
   for (const Surface& surface : surfaces) {

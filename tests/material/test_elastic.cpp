@@ -58,5 +58,28 @@ TEST(Damping, has_the_ratios_it_was_asked_for) {
   EXPECT_THROW(damping_of({0.01, 0.01}, {1000.0, 1000.0}), InputError);
 }
 
+TEST(Damping, over_a_band_is_one_ratio_in_it_and_falls_beyond) {
+  for (const double ratio : {0.001, 0.015, 0.05, 0.1})
+    for (const double width : {1.5, 10.0, 100.0, 1000.0}) {
+      const Damping damping = damping_over(ratio, {100.0, 100.0 * width});
+      for (double f = 100.0; f <= 100.0 * width; f *= 1.01)
+        ASSERT_NEAR(damping.ratio(f), ratio, 0.05 * ratio) << ratio << ", " << width << ", " << f;
+      EXPECT_LT(damping.ratio(1.0), 0.1 * ratio);
+      EXPECT_LT(damping.ratio(1e4 * width), 0.1 * ratio);
+      // The modulus as given in the middle, less below, more above: one loss angle d at all frequencies is that of a
+      // modulus that goes with the power 2 d/pi of the frequency.
+      EXPECT_NEAR(damping.storage(100.0 * std::sqrt(width)), 1.0, 1e-12);
+      const double growth = damping.storage(100.0 * width) / damping.storage(100.0);
+      if (width > 5.0) {
+        const double expected = std::pow(width, 4.0 / std::numbers::pi * std::asin(ratio));
+        EXPECT_NEAR(growth, expected, 0.05 * expected) << ratio << ", " << width;
+      }
+      EXPECT_GT(damping.storage(100.0 * width), damping.storage(100.0));
+      EXPECT_GT(damping.storage(0.0), 0.2);
+    }
+  EXPECT_TRUE(damping_over(0.0, {100.0, 1000.0}).branches.empty());
+  EXPECT_THROW(damping_over(0.2, {1.0, 1e6}), InputError);
+}
+
 }  // namespace
 }  // namespace dygita::test

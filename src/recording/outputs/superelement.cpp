@@ -155,6 +155,13 @@ class SuperelementOutput final : public Output {
             problem, origin,
             who + ": superelement '" + part->name + "' has faces that move as a whole, which cannot be condensed again",
             "condense it with motion = \"nodes\"");
+    for (const SubstructurePtr& part : problem.substructures)
+      if (!part->material.damping.branches.empty())
+        check::fail(problem, origin,
+                    who + ": substructure '" + part->name + "' is of material '" + part->material.name +
+                        "' with a 'damping_band', whose damping and stiffness change with frequency: constant matrices "
+                        "cannot have it",
+                    "take 'damping_frequency' for the superelement");
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind->absorbs())
         check::fail(problem, origin,
