@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "model/meeting.hpp"
+#include "meeting/facing.hpp"
+#include "model/model.hpp"
 
 namespace dygita {
 

@@ -15,7 +15,9 @@
 #include "law/law.hpp"
 #include "meeting/touching.hpp"
 #include "mesh/face_nodes.hpp"
+#include "model/extent.hpp"
 #include "model/load.hpp"
+#include "model/meeting.hpp"
 #include "model/places.hpp"
 #include "model/refusal.hpp"
 
