@@ -46,6 +46,8 @@ ElasticTensor ElasticTensor::turned(const Mat3& axes) const {
   return ElasticTensor(Mat6(0.5 * (turned + turned.transpose())));
 }
 
+Vec6 ElasticTensor::general_stress(const Mat3& gradient) const { return stiffness_ * strain_of(gradient); }
+
 double ElasticTensor::energy_density(const Vec6& s) const {
   if (!is_isotropic_) return 0.5 * s.dot(stiffness_.llt().solve(s));
   const double trace = s[0] + s[1] + s[2];

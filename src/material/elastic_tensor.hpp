@@ -32,11 +32,11 @@ class ElasticTensor {
   ElasticTensor turned(const Mat3& axes) const;
 
   // Pa, of a displacement gradient d u_p / d x_q.
-  Vec6 stress(const Mat3& gradient) const {
-    if (!is_isotropic_) return stiffness_ * strain_of(gradient);
-    const double pressure = lambda() * gradient.trace();
-    const Mat3 stress = mu_ * (gradient + gradient.transpose()) + pressure * Mat3::Identity();
-    return {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(2, 0)};
+  Vec6 stress(const Mat3& g) const {
+    if (!is_isotropic_) return general_stress(g);
+    const double pressure = lambda() * (g(0, 0) + (g(1, 1) + g(2, 2)));
+    return {2 * mu_ * g(0, 0) + pressure, 2 * mu_ * g(1, 1) + pressure, 2 * mu_ * g(2, 2) + pressure,
+            mu_ * (g(0, 1) + g(1, 0)),    mu_ * (g(1, 2) + g(2, 1)),    mu_ * (g(2, 0) + g(0, 2))};
   }
   // 1/2 s : C^-1 : s, J/m^3, of a stress (Pa).
   double energy_density(const Vec6& stress) const;
@@ -51,6 +51,8 @@ class ElasticTensor {
   Mat3 impedance(const Vec3& normal, double density) const;
 
  private:
+  Vec6 general_stress(const Mat3& gradient) const;
+
   bool is_isotropic_ = true;
   double young_ = 0.0, mu_ = 0.0, p_wave_ = 0.0;  // Pa
   Mat6 stiffness_ = Mat6::Zero();                 // Pa, of one that is not isotropic

@@ -1,6 +1,7 @@
 // Boxes in space, and which of many are near a place: a regular grid of cells.
 #pragma once
 
+#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct Box {
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  bool is_empty() const { return (low.array() > high.array()).any(); }
+  bool is_empty() const { return low[0] > high[0] || low[1] > high[1] || low[2] > high[2]; }
   Vec3 size() const { return high - low; }
   Box grown(double by) const { return {low - Vec3::Constant(by), high + Vec3::Constant(by)}; }
   Box common(const Box& other) const { return {low.cwiseMax(other.low), high.cwiseMin(other.high)}; }
@@ -43,8 +44,11 @@ class CellGrid {
  private:
   template <typename Visit>
   void for_each_cell(const Box& box, Visit visit) const {
-    const auto first = (box.low.array() / cell_).floor().cast<long>().eval();
-    const auto last = (box.high.array() / cell_).floor().cast<long>().eval();
+    long first[3], last[3];
+    for (int d = 0; d < 3; ++d) {
+      first[d] = static_cast<long>(std::floor(box.low[d] / cell_));
+      last[d] = static_cast<long>(std::floor(box.high[d] / cell_));
+    }
     for (long k = first[2]; k <= last[2]; ++k)
       for (long j = first[1]; j <= last[1]; ++j)
         for (long i = first[0]; i <= last[0]; ++i)

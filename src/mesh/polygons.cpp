@@ -43,4 +43,8 @@ PolygonGrid::PolygonGrid(const std::vector<Polygon>& polygons, double cell, doub
   for (size_t i = 0; i < polygons.size(); ++i) grid_.add(around(polygons[i], reach), static_cast<int>(i));
 }
 
+Box PolygonGrid::around(const Polygon& x, double reach) const {
+  return Box{x.rowwise().minCoeff(), x.rowwise().maxCoeff()}.grown(0.5 * cell_ + reach);
+}
+
 }  // namespace dygita

@@ -37,9 +37,7 @@ class PolygonGrid {
 
  private:
   // Half a cell of margin, so that faces a sagitta apart share cells.
-  Box around(const Polygon& x, double reach) const {
-    return Box{x.rowwise().minCoeff(), x.rowwise().maxCoeff()}.grown(0.5 * cell_ + reach);
-  }
+  Box around(const Polygon& x, double reach) const;
 
   double cell_;
   CellGrid grid_;
