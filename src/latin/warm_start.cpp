@@ -35,31 +35,16 @@ bool OwnFields::read(size_t increment, Eigen::Index n_own, Vec& q) const {
 WarmStart::WarmStart(const OwnFields& fields, Vec weight, InterfaceSums sums)
     : fields_(fields), weight_(std::move(weight)), sums_(std::move(sums)) {}
 
-// How good the guesses of the last increment were, and what it has done beside what the other case did in it.
-void WarmStart::look_back(const Eigen::Ref<const Vec>& q) {
-  constexpr double memory = 0.5;
-  enum { along = n_guesses, length2, n_sums };
-  const bool has_change = q_before_.size() == q.size();
-  const std::vector<double>& sums = sums_.add(n_sums, [&](Eigen::Index first, Eigen::Index n, double* to) {
-    const auto of = [&](const Vec& field) { return field.segment(first, n); };
-    const auto weight = of(weight_);
-    for (int i = 0; i < n_guesses; ++i)
-      to[i] += (of(guess_[static_cast<size_t>(i)]) - q.segment(first, n)).cwiseProduct(weight).squaredNorm();
-    if (!has_change) return;
-    const Vec change = (of(kept_) - of(kept_before_)).cwiseProduct(weight);
-    to[along] += change.dot((q.segment(first, n) - of(q_before_)).cwiseProduct(weight));
-    to[length2] += change.squaredNorm();
-  });
-  for (size_t i = 0; i < n_guesses; ++i) error_[i] = memory * error_[i] + sums[i];
-  along_ = memory * along_ + sums[along];
-  other_length2_ = memory * other_length2_ + sums[length2];
-}
-
 bool WarmStart::predict(int increment, Eigen::Ref<Vec> q) {
-  constexpr double most = 4.0;  // of the factor: where next to nothing has moved it says nothing
+  constexpr double memory = 0.5;
   if (!fields_.fields) return true;
-  if (has_guessed_) look_back(q);
-  q_before_ = q;
+  if (has_guessed_) {
+    const std::vector<double>& errors = sums_.add(n_guesses, [&](Eigen::Index first, Eigen::Index n, double* to) {
+      for (int i = 0; i < n_guesses; ++i)
+        to[i] += (guess_[i] - q).segment(first, n).cwiseProduct(weight_.segment(first, n)).squaredNorm();
+    });
+    for (int i = 0; i < n_guesses; ++i) error_[i] = memory * error_[i] + errors[i];
+  }
   kept_before_.swap(kept_);
   has_guessed_ = fields_.read(static_cast<size_t>(increment), q.size(), kept_);
   if (!has_guessed_) {
@@ -71,11 +56,10 @@ bool WarmStart::predict(int increment, Eigen::Ref<Vec> q) {
     has_guessed_ = false;
     return true;
   }
-  const double factor = other_length2_ > 0.0 ? std::clamp(along_ / other_length2_, 0.0, most) : 1.0;
-  guess_ = {q, kept_, q + kept_ - kept_before_, q + factor * (kept_ - kept_before_)};
+  guess_ = {q, kept_, q + kept_ - kept_before_};
   const auto least = std::min_element(error_.begin(), error_.end()) - error_.begin();
   // The second increment has no hindsight yet.
-  q = guess_[error_ == std::array<double, n_guesses>{} ? size_t{with_the_other} : static_cast<size_t>(least)];
+  q = guess_[error_ == std::array<double, n_guesses>{} ? n_guesses - 1 : static_cast<size_t>(least)];
   return true;
 }
 

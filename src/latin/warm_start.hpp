@@ -18,16 +18,15 @@ struct OwnFields {
   bool read(size_t increment, Eigen::Index n_own, Vec& q) const;
 };
 
-// Four guesses of an increment's q from the kept fields c and the q of the increment before:
+// Three guesses of an increment's q from the kept fields c and the q of the increment before:
 //
 //   q(n-1)                     this case continues as it does without another
 //   c(n)                       the other case's answer
 //   q(n-1) + c(n) - c(n-1)     what the other case did in this increment
-//   q(n-1) + a (c(n) - c(n-1)) the same under a times its load: a by least squares from the increments so far
 //
 // Which one is taken is decided by hindsight: the least error (weighted, of the increments so far, each counting half
-// of the one after it, as for a). Close cases move alike, far ones have only some increments in common (all sticks),
-// and where neither helps nothing is lost but the arithmetic.
+// of the one after it). Close cases move alike, far ones have only some increments in common (all sticks), and where
+// neither helps nothing is lost but the arithmetic.
 class WarmStart {
  public:
   // fields: of the other case, null for none; weight: of each component of q in the errors. Collective where the sums
@@ -42,9 +41,7 @@ class WarmStart {
   bool predict(int increment, Eigen::Ref<Vec> q);
 
  private:
-  enum Guess { as_it_was, as_the_other, with_the_other, in_proportion, n_guesses };
-
-  void look_back(const Eigen::Ref<const Vec>& q);
+  static constexpr int n_guesses = 3;
 
   OwnFields fields_;
   Vec weight_;
@@ -52,8 +49,6 @@ class WarmStart {
   std::array<Vec, n_guesses> guess_;
   std::array<double, n_guesses> error_{};
   Vec kept_, kept_before_;
-  Vec q_before_;                              // of the increment before the last
-  double along_ = 0.0, other_length2_ = 0.0;  // of what q and c did: <dq, dc>, <dc, dc>
   bool has_guessed_ = false;
 };
 

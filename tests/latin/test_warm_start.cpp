@@ -46,22 +46,6 @@ TEST(WarmStart, follows_the_other_cases_changes_while_they_tell_most) {
   EXPECT_EQ(q, vec(13, 0));
 }
 
-TEST(WarmStart, finds_how_much_more_load_there_is_and_goes_on_in_proportion) {
-  InterfaceFields fields(1e6);
-  keep(fields, {vec(0, 0), vec(1, 2), vec(3, 1), vec(6, -4), vec(7, -9)});
-  WarmStart start(&fields, 0, vec(1, 1));
-  Vec q = vec(0, 0);
-  start.predict(0, q);
-  q = vec(10, 20);  // another preload, and 1.3 times the shock
-  start.predict(1, q);
-  EXPECT_EQ(q, vec(11, 22));
-  q = vec(11.3, 22.6);
-  start.predict(2, q);
-  q = vec(13.9, 21.3);
-  start.predict(3, q);
-  EXPECT_LT((q - vec(17.8, 14.8)).norm(), 1e-12);
-}
-
 TEST(WarmStart, takes_the_other_cases_field_where_that_was_right) {
   InterfaceFields fields(1e6);
   keep(fields, {vec(0, 0), vec(1, 0), vec(3, 0), vec(6, 0)});
