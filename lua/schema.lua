@@ -1330,7 +1330,7 @@ local reading = {
   { "ensemble[output].p95_50, .median, .lowest, .highest, .spread", "of an ensemble's result: series of a spectrum (its first column; others as `ensemble[output].primary.p95_50`); p95_50: the level that 95 % of the units stay below with 50 % confidence; spread: standard deviation in dB" },
   { "ensemble[output].normal.median, .lowest, .highest", "the same of a column of another output, row by row" },
   { "ensemble[output].normal.last, .first, .max, .min", "a sample: one number a member; .median, .mean, .deviation, .min, .max, [i], #, :quantile(share)" },
-  { "ensemble.drives[output]", "what drives its figures: a list of { figure, parameter, correlation, low, high, share }, the strongest first; prints as text; of a spectrum `.mu:at(f)` is the rank correlation with parameter mu" },
+  { "ensemble.drives[output]", "what drives its figures: a list of { figure, parameter, correlation, low, high, share, clear }, the strongest first, `clear` where the bounds low and high exclude zero (else it is not distinguishable from none); prints as text; of a spectrum `.mu:at(f)` is the rank correlation with parameter mu" },
   { "ensemble[i], #ensemble", "the result of member i; the number of members" },
   { "ensemble.converged", "whether all members converged: statistics leave out those that did not" },
 }

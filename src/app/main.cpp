@@ -1,5 +1,7 @@
 // Does what the command line asks: messages, exit codes. The only file that ends the program, but for
 // base/watchdog.cpp.
+#include <spdlog/fmt/fmt.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -47,8 +49,19 @@ int fail(const char* message, int code) {
 constexpr const char* nothing_solved =
     "stopped; nothing was solved, meshes that were finished are kept: start it again";
 
+// What is left of an ensemble that was stopped and does not write its members.
+std::string lost(int members) {
+  const std::string solved = members == 0   ? "no member had come to its end"
+                             : members == 1 ? "one member had come to its end and is lost"
+                                            : fmt::format("{} members had come to their ends and are lost", members);
+  return "stopped in an ensemble: " + solved +
+         "\n    run{ members = true } writes each, and dygita continue goes on from them";
+}
+
 int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
-  if (outcome.interrupted && task_was_interrupted()) return say_error(nothing_solved, stopped);
+  if (outcome.interrupted && outcome.lost_members) return say_error(lost(*outcome.lost_members).c_str(), stopped);
+  if (outcome.interrupted && task_was_interrupted() && outcome.n_written == 0)
+    return say_error(nothing_solved, stopped);
   if (outcome.interrupted) return say_error(when_stopped, stopped);
   for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
   if (!outcome.differing.empty()) return say_error(outcome.differing.c_str(), not_converged);

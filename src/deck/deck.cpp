@@ -127,6 +127,8 @@ DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solve
     warn_of_unused(state);
   } catch (const DeckStopped&) {
     state.outcome.interrupted = true;
+  } catch (const NoStatistics& error) {
+    warn(fmt::format("the deck ends here: {}", error.what()));
   } catch (const DeckScriptError& error) {
     if (!state.has_read_hollow) throw;
     say(fmt::format("the check ends here: the deck uses results that a check does not compute:\n    {}", error.what()));
@@ -275,6 +277,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
       arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
   const bool is_member = arguments.has("member");
   const bool is_quiet = is_member && arguments.text("member") == "quiet";
+  if (is_quiet && state.is_solving && !state.outcome.lost_members) state.outcome.lost_members = 0;
   if (is_member && state.n_members++ == 0) state.shared = std::make_shared<OperatorsOfMembers>();
   const DeckResultPtr result = [&] {
     const LuaState::Pause pause(state);
@@ -283,6 +286,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
   if (!is_member) note_case(state, *result, case_name, arguments, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();
+  ++(state.outcome.lost_members ? *state.outcome.lost_members : state.outcome.n_written);
   push_object(L, {"result", "result", problem->name, -1, result});
   return 1;
 }
@@ -350,8 +354,9 @@ int run_members_together(LuaState& lua, lua_State* L) {
     const LuaState::Pause pause(state);
     const std::vector<double> seconds = run_together(n, [&](int i) {
       const Beside& own = members[static_cast<size_t>(i)];
-      results[static_cast<size_t>(i)] =
-          compute_beside(origin, state, own.problem, own.asked, std::min(n, most_together));
+      DeckResultPtr& result = results[static_cast<size_t>(i)];
+      result = compute_beside(origin, state, own.problem, own.asked, std::min(n, most_together));
+      if (!result->run->interrupted) ++*state.outcome.lost_members;
     });
     for (size_t i = 0; i < results.size(); ++i) results[i] = with_seconds(*results[i], seconds[i]);
   }

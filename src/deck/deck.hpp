@@ -40,8 +40,11 @@ struct DeckOptions {
 
 struct DeckOutcome {
   int n_runs = 0;
-  std::vector<std::string> not_converged;                  // "problem 'crush', case 'base'"
-  bool interrupted = false;                                // by the user; what was computed is written
+  std::vector<std::string> not_converged;  // "problem 'crush', case 'base'"
+  bool interrupted = false;                // by the user; what was computed is written
+  int n_written = 0;                       // runs and ensembles that came to their ends
+  // Of an ensemble that has not come to its end and does not write its members: those that have, which leave nothing.
+  std::optional<int> lost_members{};
   std::string differing;                                   // why a repeated run is not the one of the record
   std::vector<std::pair<std::string, double>> parameters;  // of param{}, --set included
 };

@@ -23,9 +23,10 @@ const OutputScatter& scatter_at_key(lua_State* L, const EnsembleResult& of, cons
   const std::string name = key->as<OutputPtr>()->name;
   if (!found) found = scatter_of_output(of, name);
   if (!found && of.ensemble.counted().empty())
-    throw InputError(origin, fmt::format("none of the {} members of ensemble '{}' converged, so it has no statistics\n"
-                                         "    what a member came to is read by its number, result[1][{}]",
-                                         of.members.size(), of.ensemble.name, name));
+    throw NoStatistics(origin,
+                       fmt::format("none of the {} members of ensemble '{}' converged, so it has no statistics\n"
+                                   "    what a member came to is read by its number, result[1][{}]",
+                                   of.members.size(), of.ensemble.name, name));
   if (!found)
     throw InputError(origin,
                      fmt::format("{} has no table in all members of ensemble '{}'", key->label(), of.ensemble.name));
@@ -76,9 +77,10 @@ void set_number(lua_State* L, const char* key, double value) {
 std::string text_of(const std::vector<Drive>& drives) {
   std::string text;
   for (const Drive& d : drives)
-    text += fmt::format("{}{}: {}, rank correlation {:.2f} ({:.2f} to {:.2f}), {:.0f} % of the spread",
-                        text.empty() ? "" : "\n", d.figure, d.parameter, d.correlation.value, d.correlation.low,
-                        d.correlation.high, 100.0 * d.share());
+    text += fmt::format("{}{}: {}, rank correlation {:.2f} ({:.2f} to {:.2f}), {}", text.empty() ? "" : "\n", d.figure,
+                        d.parameter, d.correlation.value, d.correlation.low, d.correlation.high,
+                        d.correlation.is_clear() ? fmt::format("{:.0f} % of the spread", 100.0 * d.share())
+                                                 : "not distinguishable from none");
   return text.empty() ? "nothing varies" : text;
 }
 
@@ -88,7 +90,7 @@ int push_drives(lua_State* L, const Drives& drives, const Origin& origin) {
   lua_createtable(L, static_cast<int>(found.drives.size()), 4);
   for (size_t i = 0; i < found.drives.size(); ++i) {
     const Drive& d = found.drives[i];
-    lua_createtable(L, 0, 6);
+    lua_createtable(L, 0, 7);
     lua_pushstring(L, d.figure.c_str());
     lua_setfield(L, -2, "figure");
     lua_pushstring(L, d.parameter.c_str());
@@ -97,6 +99,8 @@ int push_drives(lua_State* L, const Drives& drives, const Origin& origin) {
     set_number(L, "low", d.correlation.low);
     set_number(L, "high", d.correlation.high);
     set_number(L, "share", d.share());
+    lua_pushboolean(L, d.correlation.is_clear());
+    lua_setfield(L, -2, "clear");
     lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
   }
   for (size_t j = 1; j < found.drives_at.names.size(); ++j) {

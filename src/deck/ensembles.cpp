@@ -250,6 +250,8 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   count_as_written(*found);
   state.n_members = 0;
   state.shared = nullptr;
+  state.outcome.lost_members.reset();
+  ++state.outcome.n_written;
   state.declared.mark_used(the_object_at(L, 1).id);
   each_of(L, 2, "problems", [&](size_t) { state.declared.mark_used(the_object_at(L, -1).id); });
   lua_getfield(L, 2, "keeps_members");

@@ -7,6 +7,12 @@
 
 namespace dygita {
 
+// A deck reads statistics of an ensemble of which no member has converged: it ends there, which is no fault of its own.
+class NoStatistics : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 struct EnsembleResult {
   Ensemble ensemble;
   std::vector<OutputScatter> scatter;

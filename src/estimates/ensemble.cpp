@@ -172,7 +172,7 @@ std::vector<double> values_at(const Ensemble& ensemble, const std::string& outpu
 
 std::string drive_text(const std::vector<Drive>& drives, const std::string& figure) {
   const auto first = std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.figure == figure; });
-  if (first == drives.end() || first->correlation.low * first->correlation.high <= 0.0) return "";
+  if (first == drives.end() || !first->correlation.is_clear()) return "";
   return fmt::format("{:.0f} % of the spread is {} (rank correlation {:.2f}, {:.2f} to {:.2f})", 100.0 * first->share(),
                      first->parameter, first->correlation.value, first->correlation.low, first->correlation.high);
 }

@@ -21,6 +21,8 @@ double sample_quantile(std::vector<double> values, double p);
 // Spearman's, with the bounds within which it lies with 95 % confidence: -1 and 1 of three values or fewer.
 struct RankCorrelation {
   double value = 0.0, low = -1.0, high = 1.0;
+  // Do its bounds exclude zero? Else it is not distinguishable from none.
+  bool is_clear() const { return low * high > 0.0; }
 };
 // nan where one of both is the same everywhere, or differs by rounding alone.
 RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector<double>& y);

@@ -63,12 +63,13 @@ std::string members_csv(const Ensemble& ensemble) {
 }
 
 std::string drives_csv(const std::vector<OutputScatter>& scatter) {
-  std::string text = "figure,parameter,rank_correlation,lowest,highest,share\n";
+  std::string text = "figure,parameter,rank_correlation,lowest,highest,share,clear\n";
   for (const OutputScatter& one : scatter)
     for (const Drive& drive : one.drives)
-      text += fmt::format("{},{},{},{},{},{}\n", quoted(drive.figure), quoted(drive.parameter),
+      text += fmt::format("{},{},{},{},{},{},{}\n", quoted(drive.figure), quoted(drive.parameter),
                           nine_digits_of(drive.correlation.value), nine_digits_of(drive.correlation.low),
-                          nine_digits_of(drive.correlation.high), nine_digits_of(drive.share()));
+                          nine_digits_of(drive.correlation.high), nine_digits_of(drive.share()),
+                          drive.correlation.is_clear() ? 1 : 0);
   return text;
 }
 
@@ -91,7 +92,8 @@ std::string ensemble_record(const Ensemble& ensemble, const std::vector<OutputSc
                         {"parameter", drive.parameter},
                         {"rank_correlation", known(drive.correlation.value)},
                         {"lowest", known(drive.correlation.low)},
-                        {"highest", known(drive.correlation.high)}});
+                        {"highest", known(drive.correlation.high)},
+                        {"clear", drive.correlation.is_clear()}});
     outputs.push_back({{"name", one.output->name},
                        {"kind", one.output->word},
                        {"file", one.columns.empty() ? Json() : Json(file_name_of(one.output->name) + ".csv")},

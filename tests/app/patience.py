@@ -47,6 +47,16 @@ problem{ name = "large", substructures = { cube }, supports = { support.fixed{ n
   steps = { step.dynamic{ name = "push", duration = 100*us, dt = 10*us, loads = { load.pressure{ on = cube:face "zmax", history = 1*MPa } } } } }:run{}
 """
 
+# Units of a bar in many time steps: the first by itself, the other one after it.
+UNITS = """local bar = substructure{ name = "bar", mesh = mesh.box{ size = { 1, 0.1, 0.1 }, cells = { 20, 2, 2 } },
+  material = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7850 } }
+ensemble{ n = 2, vary = { p = uniform(1, 2)*MPa }, of = function(v)
+  return problem{ name = "units", substructures = { bar }, supports = { support.fixed{ name = "base", on = bar:face "xmin" } },
+    solver = solver.latin{ integration = "implicit" },
+    steps = { step.dynamic{ name = "push", duration = 10*ms, dt = 1*us, loads = { load.pressure{ on = bar:face "xmax", history = v.p } } } } }
+end }:run{}
+"""
+
 
 def check(condition, what):
     if not condition:
@@ -164,11 +174,22 @@ def a_factor_ends():
     check("stopped; the results so far are written" in terminal.said(), f"what was kept is not said of a factor: {terminal.said()[-300:]}")
 
 
+def an_ensemble_says_what_is_lost():
+    for number, made in ((signal.SIGINT, False), (signal.SIGTERM, True)):
+        terminal = Terminal("run", deck("units.lua", UNITS), "--out", FOLDER / "out", "--threads", "1")
+        wait_for(terminal.said, "energy balance closes" if made else "case 'ensemble_", terminal.process)
+        end_of(terminal.process, number, "an ensemble")
+        words = "one member had come to its end and is lost" if made else "no member had come to its end"
+        check("stopped in an ensemble: " + words in terminal.said(), f"what is lost is not said of an ensemble: {terminal.said()[-300:]}")
+        check(NOTHING_SOLVED not in terminal.said(), "an ensemble that was stopped says that nothing was solved")
+
+
 (FOLDER / "slow.geo").write_text(SLOW_SOLID)
 a_log_says_what_is_meshed()
 a_terminal_says_what_is_meshed()
 a_check_says_which_interface_and_ends()
 a_factor_ends()
+an_ensemble_says_what_is_lost()
 for failure in failures:
     print(failure)
 sys.exit(1 if failures else 0)

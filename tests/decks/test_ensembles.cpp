@@ -272,14 +272,14 @@ std::filesystem::path own_folder() {
   return folder;
 }
 
-void run_in(const std::filesystem::path& folder, const std::string& text) {
+DeckOutcome run_in(const std::filesystem::path& folder, const std::string& text) {
   std::ofstream(folder / "bar.lua") << text;
   set_progress_enabled(false);
   DeckOptions options;
   options.path = folder / "bar.lua";
   options.out = folder / "out";
   options.threads = 1;
-  run_deck(options, Engine{run_problem, check_report});
+  return run_deck(options, Engine{run_problem, check_report});
 }
 
 // What a smaller ensemble of other outputs leaves of the one before: nothing but what somebody else put there.
@@ -372,19 +372,34 @@ TEST(Ensemble, of_two_regimes_is_told_with_its_groups) {
   EXPECT_EQ(one.find("regimes"), std::string::npos) << one;
 }
 
-TEST(Ensemble, without_a_member_that_converged_says_so) {
+// As a run that does not converge: no fault of the deck.
+TEST(Ensemble, without_a_member_that_converged_says_so_and_ends_the_deck) {
+  const std::filesystem::path folder = own_folder();
   std::string deck = blocks.substr(0, blocks.find("for i = 1, #r"));
   deck.replace(deck.find("tolerance = 1e-8"), 16, "max_iterations = 2, tolerance = 1e-8");
-  try {
-    printed_by(deck + "print(r[j].slip.last.median)");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("none of the 5 members of ensemble 'ensemble' converged, so it has no "
-                        "statistics"),
-              std::string::npos)
-        << error.what();
-  }
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  const DeckOutcome outcome = run_in(folder, deck + "print(r[j].slip.last.median)\nprint 'not reached'");
+  const std::string warned = testing::internal::GetCapturedStderr(), said = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(outcome.not_converged.size(), 5u);
+  EXPECT_NE(warned.find("the deck ends here: bar.lua:"), std::string::npos) << warned;
+  EXPECT_NE(warned.find("none of the 5 members of ensemble 'ensemble' converged, so it has no statistics"),
+            std::string::npos)
+      << warned;
+  EXPECT_EQ(said.find("not reached"), std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+// Of twelve members a correlation of what has no influence says nothing.
+TEST(Ensemble, tells_what_drives_from_what_is_not_distinguishable_from_none) {
+  const Printed printed = printed_by(linear_bar + R"(
+print(r.drives[srs])
+for _, drive in ipairs(r.drives[srs]) do print(("%s is clear: %d"):format(drive.parameter, drive.clear and 1 or 0)) end
+)");
+  EXPECT_EQ(printed["peak is clear"], 1.0);
+  EXPECT_EQ(printed["idle is clear"], 0.0);
+  EXPECT_NE(printed.text.find("), not distinguishable from none"), std::string::npos);
+  EXPECT_NE(printed.text.find("rank correlation 1.00 ("), std::string::npos);
 }
 
 TEST(Ensemble, writes_its_statistics) {
@@ -406,7 +421,7 @@ TEST(Ensemble, writes_its_statistics) {
             "time [s],step,acceleration median [m/s^2],acceleration lowest [m/s^2],acceleration highest [m/s^2]");
   EXPECT_EQ(lines("ensemble_members.csv").size(), 13u);
   EXPECT_EQ(lines("ensemble_members.csv").at(0).rfind("member,idle,peak,", 0), 0u);
-  EXPECT_EQ(lines("ensemble_drives.csv").at(0), "figure,parameter,rank_correlation,lowest,highest,share");
+  EXPECT_EQ(lines("ensemble_drives.csv").at(0), "figure,parameter,rank_correlation,lowest,highest,share,clear");
   EXPECT_NE(lines("srs.svg").at(0).find("<svg"), std::string::npos);
   std::ostringstream page;
   page << std::ifstream(own / "report.html").rdbuf();
