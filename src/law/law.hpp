@@ -30,7 +30,7 @@ struct LawRemark {
 };
 
 // What follows from the displacements of the two sides alone, since the law's state does not have it.
-enum class Followed { nothing, slip_while_closed, opening_and_slip };
+enum class Followed { nothing, slip_between_touches, opening_and_slip };
 
 // What outputs can tell of a point beside its force.
 struct Shown {

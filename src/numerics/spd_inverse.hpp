@@ -54,7 +54,9 @@ class SpdInverse {
   Mat times(Mat x) const;
   // A^-1, its lower triangle.
   Mat lower() const;
-  double bytes() const { return form_ == Form::matrix ? matrix_.bytes() + half_.bytes() + rough_.bytes() : factor_.bytes(); }
+  double bytes() const {
+    return form_ == Form::matrix ? matrix_.bytes() + half_.bytes() + rough_.bytes() : factor_.bytes();
+  }
 
  private:
   Mat unpacked_factor() const;

@@ -109,7 +109,8 @@ void CondensedPiece::set_search_directions(const Vec& k) {
            : std::make_shared<const SpdInverse>(
                  condensation_.take_with_rows(op_, k),
                  SpdInverse::cheapest(condensation_.factor->n_interface(), setup.n_products),
-                 SpdInverse::Storage{setup.precision, setup.storage_error / 16, setup.half_error, setup.rough_error}, setup.what);
+                 SpdInverse::Storage{setup.precision, setup.storage_error / 16, setup.half_error, setup.rough_error},
+                 setup.what);
   condensation_.schur.reset();
 }
 

@@ -83,7 +83,8 @@ double predicted_bytes(const PieceSetup& setup, bool has_twin) {
   if (const std::optional<double> full = cheaper_in_full(setup, matrix, layout)) return *full + vectors;
   if (has_twin) return vectors;
   const double n_b = layout.n_interface();
-  const double entry = bytes_of_operator_entry(setup) + (setup.half_error > 0.0 ? bytes_of_entry(setup.half_error) : 0.0);
+  const double entry =
+      bytes_of_operator_entry(setup) + (setup.half_error > 0.0 ? bytes_of_entry(setup.half_error) : 0.0);
   return factor_bytes(setup, matrix, layout, layout.is_interface) + entry * 0.5 * n_b * n_b + vectors;
 }
 

@@ -58,7 +58,7 @@ void FollowedMotion::accept(const Instant& instant) {
     if (!motion.is_watched) continue;
     const Points now = motion.sides.jump(instant);
     if (motion.moved.size() > 0) {
-      const bool is_slip = followed(surface) == Followed::slip_while_closed;
+      const bool is_slip = followed(surface) == Followed::slip_between_touches;
       for (int i = 0; i < surface.n_points(); ++i) {
         // As law/slip.hpp does where the law knows the tangents.
         const bool is_open = instant.surface(static_cast<int>(s)).points[i].status == PointState::open;
@@ -94,7 +94,7 @@ Vec3 FollowedMotion::slip(const Instant& instant, int surface, int point) const 
   const Motion& motion = motions_[static_cast<size_t>(surface)];
   const Vec3 n = of.facing.normals.col(point);
   const auto along = [&](const Vec3& moved) { return Vec3(moved - moved.dot(n) * n); };
-  if (followed(of) == Followed::slip_while_closed && motion.moved.size() > 0) return motion.moved.col(point);
+  if (followed(of) == Followed::slip_between_touches && motion.moved.size() > 0) return motion.moved.col(point);
   if (followed(of) == Followed::opening_and_slip && motion.moved.size() > 0) return along(motion.moved.col(point));
   const Vec3 kept = instant.surface(surface).points[point].slip;
   // What has a gap of its own slides while it is closed.

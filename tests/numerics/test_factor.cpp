@@ -262,8 +262,8 @@ TEST(SpdInverse, has_a_form_in_half_precision) {
   const double error = 0x1p-16;
   const Mat random = Mat::Random(n, n), matrix = random * random.transpose() + 50.0 * Mat::Identity(n, n);
   const SpdInverse plain(matrix, SpdInverse::Form::matrix, {Precision::single_precision, 0x1p-30}, "matrix"),
-      both(matrix, SpdInverse::Form::matrix, {.precision = Precision::single_precision, .error = 0x1p-30, .half_error = error},
-           "matrix");
+      both(matrix, SpdInverse::Form::matrix,
+           {.precision = Precision::single_precision, .error = 0x1p-30, .half_error = error}, "matrix");
   EXPECT_FALSE(plain.has_half());
   ASSERT_TRUE(both.has_half());
   EXPECT_LT(both.bytes() - plain.bytes(), 0.6 * plain.bytes());

@@ -32,8 +32,10 @@ class Contact final : public Law, public PenaltyForm {
   std::vector<LawRemark> remarks() const override;
   Shown shown() const override {
     const bool rubs = friction_ > 0.0;
-    return {
-        .gap = true, .slip = rubs, .states = true, .followed = rubs ? Followed::nothing : Followed::slip_while_closed};
+    return {.gap = true,
+            .slip = rubs,
+            .states = true,
+            .followed = rubs ? Followed::nothing : Followed::slip_between_touches};
   }
 
   bool is_tie() const override { return false; }
