@@ -25,9 +25,8 @@
 
 namespace dygita {
 
-namespace {
-
-thread_local Turns* turns_at_hand = nullptr;
+// Not anonymous: Turns::One, which is not, has members of these.
+namespace turning {
 
 // As large as that of a process; pages that are not touched cost nothing, and one below it ends who goes too far.
 class Stack {
@@ -60,7 +59,7 @@ struct Place {
   size_t size = 0;
 };
 
-void change(Place& from, Place& to, [[maybe_unused]] bool is_last = false) {
+inline void change(Place& from, Place& to, [[maybe_unused]] bool is_last = false) {
 #ifdef DYGITA_ADDRESS_SANITIZER
   __sanitizer_start_switch_fiber(is_last ? nullptr : &from.fake, to.bottom, to.size);
 #endif
@@ -70,18 +69,29 @@ void change(Place& from, Place& to, [[maybe_unused]] bool is_last = false) {
 #endif
 }
 
-void arrive([[maybe_unused]] Place& came_from) {
+inline void arrive([[maybe_unused]] Place& came_from) {
 #ifdef DYGITA_ADDRESS_SANITIZER
   __sanitizer_finish_switch_fiber(nullptr, &came_from.bottom, &came_from.size);
 #endif
 }
 
+// By itself, for it may return twice as far as the compiler knows.
+[[gnu::noinline]] bool is_begun(ucontext_t& context) { return getcontext(&context) == 0; }
+
+}  // namespace turning
+
+using turning::change;
+
+namespace {
+
+thread_local Turns* turns_at_hand = nullptr;
+
 }  // namespace
 
 struct Turns::One {
   const std::function<void()>* body;
-  Stack stack{};
-  Place place{}, caller{};
+  turning::Stack stack{};
+  turning::Place place{}, caller{};
   Asked* asked = nullptr;
   std::exception_ptr thrown{}, refused{};  // by the run; by what it has asked for
   bool is_over = false;
@@ -93,9 +103,9 @@ Turns::Turns(const std::vector<std::function<void()>>& runs, const std::function
   for (const std::function<void()>& body : runs) {
     all_.push_back(std::make_unique<One>(&body));
     One& one = *all_.back();
-    CHECK(getcontext(&one.place.context) == 0, "a run cannot be begun");
+    CHECK(turning::is_begun(one.place.context), "a run cannot be begun");
     one.place.context.uc_stack.ss_sp = const_cast<void*>(one.place.bottom = one.stack.at());
-    one.place.context.uc_stack.ss_size = one.place.size = Stack::size;
+    one.place.context.uc_stack.ss_size = one.place.size = turning::Stack::size;
     const auto address = reinterpret_cast<std::uintptr_t>(this);
     makecontext(&one.place.context, reinterpret_cast<void (*)()>(&Turns::begin), 2,
                 static_cast<unsigned>(address >> 32), static_cast<unsigned>(address));
@@ -110,7 +120,7 @@ Turns* Turns::at_hand() { return turns_at_hand && turns_at_hand->now_ ? turns_at
 void Turns::begin(unsigned high, unsigned low) {
   auto* const turns = reinterpret_cast<Turns*>((static_cast<std::uintptr_t>(high) << 32) | low);
   One& one = *turns->now_;
-  arrive(one.caller);
+  turning::arrive(one.caller);
   try {
     (*one.body)();
   } catch (...) {
