@@ -13,6 +13,7 @@
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/deck_text.hpp"
+#include "deck/ensembles.hpp"
 #include "deck/results.hpp"
 #include "deck/syntax_hint.hpp"
 #include "intake/mesher_process.hpp"
