@@ -98,18 +98,6 @@ TEST(SharedOperators, leave_members_with_cut_parts_as_they_are_alone) {
   EXPECT_TRUE(share_a_correction);
 }
 
-// Other search directions want another correction, though the pieces share their factors.
-TEST(SharedOperators, serve_no_member_with_another_coarse_correction) {
-  Problem problem = pressed_cubes({}, 4);
-  problem.solver.pieces = 2;
-  SharedOperators shared;
-  run(problem, &shared);
-  const std::shared_ptr<const CoarseCorrection> first = shared.coarse_of_step(0);
-  problem.solver.search_direction *= 2.0;
-  expect_same_bits(run(problem, &shared), run(problem, nullptr));
-  EXPECT_EQ(shared.coarse_of_step(0), first);
-}
-
 TEST(SharedOperators, leave_members_with_moving_supports_as_they_are_alone) {
   expect_members_alone(
       [](Numbers numbers) {

@@ -117,8 +117,8 @@ def differences(first, second, leave_out=lambda table, column: False):
             # Sides that touch and do not press: round-off decides whether they count as closed, and where it has decided otherwise
             # slip is another from then on.
             is_unsure = is_unsure or bool(pressed) and size > 1e-6 and all(abs(of[row]) <= ROUGHLY_NONE * scales["force"] for of in pressed)
-            # So it is where a point slides under no force beside one that carries: no work is done by what differs.
-            is_unsure = is_unsure or bool(rubbed) and size > 1e-6 and abs(rubbed[0][row] - rubbed[1][row]) <= 1e-9 * abs(a - b) * max(abs(of[row]) for of in pressed)
+            # So it is where a point slides under no force beside one that carries: what differs does a millionth of the work that it would do under all of it.
+            is_unsure = is_unsure or bool(rubbed) and size > 1e-6 and abs(rubbed[0][row] - rubbed[1][row]) <= 1e-6 * abs(a - b) * max(abs(of[row]) for of in pressed)
             if is_unsure:
                 continue
             if math.isnan(size):
