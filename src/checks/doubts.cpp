@@ -163,9 +163,10 @@ void doubt_stiffening(const Problem& problem) {
     doubt(problem, part->origin,
           fmt::format("constant damping of material '{}' stiffens it with frequency, as causality has it: natural "
                       "frequencies are {:.1f} % low near {:g} Hz and {:.1f} % high near {:g} Hz, right at {:.4g} Hz; "
-                      "static steps have the modulus as given, slow loads in dynamic ones {:.1f} % less",
+                      "static steps have the modulus as given, slow loads in dynamic ones {:.1f} % less, so that what "
+                      "is let go of a static load comes to rest beyond its unloaded shape, by {:.1f} % of the way",
                       part->material.name, -100.0 * shift(low), low, 100.0 * shift(high), high, std::sqrt(low * high),
-                      100.0 * (1.0 - damping.storage(0.0))));
+                      100.0 * (1.0 - damping.storage(0.0)), 100.0 * (1.0 / damping.storage(0.0) - 1.0)));
   }
 }
 

@@ -72,28 +72,49 @@ Outside surfaces_with(const SubstructurePtr& part, const std::vector<Facet>& fac
 
 Box box_of(const Substructure& part) { return PlacedBody{part.mesh.get(), part.place}.box(); }
 
-// Marks the facets of a pair of parts that an interface of theirs has. What it covers in part is free for others, where
-// that is so of one side alone: two facets that have met in one interface may not meet in another.
-void take(const Interface& interface, bool is_swapped, FacetKeys& taken_1, FacetKeys& taken_2) {
+FacetKeys keys_of(const std::vector<Facet>& facets) {
+  FacetKeys keys;
+  for (const Facet& facet : facets) keys.insert(facet_key(facet));
+  return keys;
+}
+
+// Of two parts, facets that an interface of theirs leaves to no other.
+struct Taken {
+  FacetKeys of_1, of_2;
+  void add(const Taken& more) {
+    of_1.insert(more.of_1.begin(), more.of_1.end());
+    of_2.insert(more.of_2.begin(), more.of_2.end());
+  }
+};
+
+// What an interface covers in part of flat faces is free for others, but two facets that have met in one interface may
+// not meet in another: of such pairs one side stays taken, the one that leaves more to be joined.
+void take(const Interface& interface, bool is_swapped, const Outside& whole_1, const Outside& whole_2, Taken& taken) {
   const Face &face_1 = is_swapped ? interface.side_2 : interface.side_1,
              &face_2 = is_swapped ? interface.side_1 : interface.side_2;
-  const Outside outside_1 = outside_of({face_1.part, face_1}), outside_2 = outside_of({face_2.part, face_2});
-  const Touching touching = find_touching(outside_1, outside_2, interface.within);
-  const bool is_found = !touching.is_empty();
-  FacetKeys all_1, all_2;
-  for (const Facet& facet : is_found ? touching.facets_1 : face_1.facets()) all_1.insert(facet_key(facet));
-  for (const Facet& facet : is_found ? touching.facets_2 : face_2.facets()) all_2.insert(facet_key(facet));
-  const std::vector<Facet>&partly_1 = touching.partly_1, &partly_2 = touching.partly_2;
-  const bool is_free = partly_1.empty() || partly_2.empty() ||
-                       find_touching({*face_1.part->mesh, face_1.part->place, partly_1},
-                                     {*face_2.part->mesh, face_2.part->place, partly_2}, touching.within)
-                           .is_empty();
-  if (is_free) {
-    for (const Facet& facet : partly_1) all_1.erase(facet_key(facet));
-    for (const Facet& facet : partly_2) all_2.erase(facet_key(facet));
-  }
-  taken_1.insert(all_1.begin(), all_1.end());
-  taken_2.insert(all_2.begin(), all_2.end());
+  const Touching touching =
+      find_touching(outside_of({face_1.part, face_1}), outside_of({face_2.part, face_2}), interface.within);
+  if (touching.is_empty()) return taken.add({keys_of(face_1.facets()), keys_of(face_2.facets())});
+  // Chords of round faces leave something of every facet.
+  const bool is_flat = touching.bend <= 0.01 * touching.within;
+  const std::vector<Facet> partly_1 = is_flat ? touching.partly_1 : std::vector<Facet>(),
+                           partly_2 = is_flat ? touching.partly_2 : std::vector<Facet>();
+  Touching both;
+  if (!partly_1.empty() && !partly_2.empty())
+    both = find_touching({*face_1.part->mesh, face_1.part->place, partly_1},
+                         {*face_2.part->mesh, face_2.part->place, partly_2}, touching.within);
+  Taken first{keys_of(touching.facets_1), keys_of(touching.facets_2)};
+  for (const Facet& facet : partly_1) first.of_1.erase(facet_key(facet));
+  for (const Facet& facet : partly_2) first.of_2.erase(facet_key(facet));
+  Taken second = first;
+  for (const Facet& facet : both.facets_1) first.of_1.insert(facet_key(facet));
+  for (const Facet& facet : both.facets_2) second.of_2.insert(facet_key(facet));
+  first.add(taken);
+  second.add(taken);
+  const auto left = [&](const Taken& of) {
+    return find_touching(whole_1, whole_2, interface.within, of.of_1, of.of_2).area;
+  };
+  taken = both.is_empty() || left(first) >= left(second) ? std::move(first) : std::move(second);
 }
 
 }  // namespace
@@ -140,14 +161,14 @@ std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts
       const double smaller = std::min(boxes[i].size().norm(), boxes[j].size().norm());
       if (!boxes[i].grown(within.value_or(0.0) + 0.05 * smaller).meets(boxes[j])) continue;
       if (outside(i).facets.empty() || outside(j).facets.empty()) continue;  // superelements of points alone
-      FacetKeys taken_1, taken_2;
+      Taken taken;
       for (const InterfacePtr& interface : interfaces) {
         if (interface->side_1.part == parts[i] && interface->side_2.part == parts[j])
-          take(*interface, false, taken_1, taken_2);
+          take(*interface, false, outside(i), outside(j), taken);
         if (interface->side_1.part == parts[j] && interface->side_2.part == parts[i])
-          take(*interface, true, taken_1, taken_2);
+          take(*interface, true, outside(i), outside(j), taken);
       }
-      Touching touching = find_touching(outside(i), outside(j), within, taken_1, taken_2);
+      Touching touching = find_touching(outside(i), outside(j), within, taken.of_1, taken.of_2);
       if (touching.is_empty()) continue;
       pairs.push_back({i, j, found_between({parts[i], {}}, {parts[j], {}}, std::move(touching))});
     }

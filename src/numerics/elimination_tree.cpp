@@ -63,7 +63,7 @@ RoomForFronts::RoomForFronts(const EliminationTree& tree, const std::vector<Supe
   }
 }
 
-std::vector<Branch> branches_of(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes) {
+std::vector<TreeBranch> branches_of(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes) {
   constexpr double least_operations = 2e8, largest_share = 0.06, smallest_share = 1e-4;
   const int n = static_cast<int>(tree.order.size());
   std::vector<double> operations(n, 0.0);  // of the subtree
@@ -77,7 +77,7 @@ std::vector<Branch> branches_of(const EliminationTree& tree, const std::vector<S
     if (parent < 0) all += operations[s];
     if (parent >= 0) operations[parent] += operations[s], size[parent] += size[s];
   }
-  std::vector<Branch> branches;
+  std::vector<TreeBranch> branches;
   if (all < least_operations) return branches;
   std::vector<char> is_taken(n, 0);
   // Roots are left out: what they leave of the rest of the matrix is added in their order.
@@ -90,7 +90,7 @@ std::vector<Branch> branches_of(const EliminationTree& tree, const std::vector<S
     if (is_branch) branches.push_back({s, place[s] - size[s] + 1, place[s] + 1, operations[s]});
   }
   std::stable_sort(branches.begin(), branches.end(),
-                   [](const Branch& a, const Branch& b) { return a.operations > b.operations; });
+                   [](const TreeBranch& a, const TreeBranch& b) { return a.operations > b.operations; });
   return branches;
 }
 

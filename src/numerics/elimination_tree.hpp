@@ -30,13 +30,13 @@ struct RoomForFronts {
 };
 
 // A subtree that one thread takes: its places in the tree's order follow each other, the root's is the last.
-struct Branch {
+struct TreeBranch {
   int root, first, end;
   double operations;
 };
 
 // The largest first; none of it has much of all operations, and none is a tree. Empty where waking threads would take
 // longer. They depend only on the sparsity pattern.
-std::vector<Branch> branches_of(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes);
+std::vector<TreeBranch> branches_of(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes);
 
 }  // namespace dygita

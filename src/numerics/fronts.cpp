@@ -234,7 +234,7 @@ std::vector<int> range(int first, int end) {
 
 // Nothing where a pivot is not positive.
 std::optional<Mat> eliminate_side_by_side(Whole& whole, const KeepSupernode& keep) {
-  const std::vector<Branch> branches = branches_of(whole.tree, whole.supernodes);
+  const std::vector<TreeBranch> branches = branches_of(whole.tree, whole.supernodes);
   std::mutex keeping;
   const auto one_by_one = [&](const SupernodeView& supernode, int place) {
     const std::scoped_lock lock(keeping);
@@ -243,7 +243,7 @@ std::optional<Mat> eliminate_side_by_side(Whole& whole, const KeepSupernode& kee
   std::vector<std::unique_ptr<ScratchPages>> left(branches.size());  // of the roots of branches
   std::atomic<bool> is_positive = true;
   parallel_for(static_cast<int>(left.size()), [&](int i) {
-    const Branch& branch = branches[static_cast<size_t>(i)];
+    const TreeBranch& branch = branches[static_cast<size_t>(i)];
     if (!is_positive) return;
     Fronts fronts(whole, range(branch.first, branch.end));
     if (fronts.run(one_by_one) >= 0) {
@@ -256,7 +256,7 @@ std::optional<Mat> eliminate_side_by_side(Whole& whole, const KeepSupernode& kee
     whole.update[branch.root] = own->doubles();
   });
   std::vector<char> is_done(whole.supernodes.size(), 0);
-  for (const Branch& branch : branches) std::fill(is_done.begin() + branch.first, is_done.begin() + branch.end, 1);
+  for (const TreeBranch& branch : branches) std::fill(is_done.begin() + branch.first, is_done.begin() + branch.end, 1);
   std::vector<int> above;
   for (size_t i = 0; i < is_done.size(); ++i)
     if (!is_done[i]) above.push_back(static_cast<int>(i));

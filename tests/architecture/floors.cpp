@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"mesher", {"base", "numerics", "mesh", "intake"}},
     {"foreign", {"base", "ranks", "numerics", "mesh", "intake"}},
     {"model", {"base", "mesh", "signal", "material", "meeting", "law"}},
-    {"checks", {"base", "mesh", "signal", "law", "model"}},
+    {"checks", {"base", "mesh", "signal", "material", "law", "model"}},
     {"interfaces", {"base", "numerics", "mesh", "meeting", "law", "model"}},
     {"partition", {"base", "ranks", "numerics", "mesh", "fem", "model", "interfaces"}},
     {"exchange", {"base", "ranks", "numerics", "law", "model", "interfaces", "partition"}},

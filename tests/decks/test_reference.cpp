@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "decks/engine.hpp"
 
 namespace dygita::test::reference_tests {
@@ -238,7 +239,12 @@ local wall = support.wall{ name = "wall", on = block:face "zmin" }
 local pull = step.static{ name = "pull", loads = { load.force{ on = block:face "zmax", z = 100 } } }
 problem{ name = "pulled", substructures = { block }, supports = { wall }, steps = { pull }, solver = pick }:run{}
 )";
-  EXPECT_FALSE(run_text(pulled, {{"monolithic", "1"}}).at(0).result->converged);
+  // By rounding, and so by the kind of processor, it flies off or stands still.
+  try {
+    EXPECT_FALSE(run_text(pulled, {{"monolithic", "1"}}).at(0).result->converged);
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("no equilibrium"), std::string::npos) << error.what();
+  }
 }
 
 // Tangents that are solved with the factor of another against a factor for each: bolts that are tightened one after the
