@@ -119,7 +119,8 @@ void remove_checkpoint(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / checkpoint_file_name, ignored);
   std::filesystem::remove_all(parts_folder(folder / checkpoint_file_name), ignored);
-  std::filesystem::remove(folder / own_file::going_on, ignored);
+  for (const char* const half : {"", ".tmp"})  // a kill may have come while it was written
+    std::filesystem::remove(folder / (std::string(own_file::going_on) + half), ignored);
 }
 
 void share_checkpoint(const std::filesystem::path& from, const std::filesystem::path& to) {
