@@ -150,7 +150,7 @@ void doubt_layups(const Problem& problem) {
   }
 }
 
-// A constant damping is not to be had without a stiffness that grows with frequency.
+// Constant damping implies a stiffness that grows with frequency (causality).
 void doubt_stiffening(const Problem& problem) {
   constexpr double least = 0.01;  // of a natural frequency
   std::set<std::string> told;

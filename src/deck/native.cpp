@@ -230,25 +230,6 @@ int call_method(LuaState& lua, lua_State* L) {
   return 1;
 }
 
-// Heights that what lies around them contradicts: the worst in full, the others by their lines.
-void doubt_scan(const Scan& scan, const Origin& origin) {
-  constexpr size_t most = 8;
-  const std::vector<ScanOutlier> outliers = outliers_of(scan.points());
-  if (outliers.empty()) return;
-  const auto& [point, off, scatter] = outliers.front();
-  std::string others;
-  for (size_t i = 1; i < std::min(most, outliers.size()); ++i)
-    others += fmt::format("{}{} ({:.3g} um)", i == 1 ? "; likewise of lines " : ", ", outliers[i].point->line,
-                          1e6 * outliers[i].off);
-  if (outliers.size() > most) others += fmt::format(" and {} more", outliers.size() - most);
-  warn(fmt::format(
-      "{}field.file '{}': the height in line {}, {:.6g} um at ({:.6g}, {:.6g}) mm, is {:.3g} um off the plane "
-      "through the eight points around it, which are {:.3g} um off theirs{}: measured wrongly? it is used as it "
-      "stands; take the line out of the file, or smooth = over more than one distance between points",
-      origin.prefix(), scan.file(), point->line, 1e6 * point->height, 1e3 * point->u, 1e3 * point->v, 1e6 * off,
-      1e6 * scatter, others));
-}
-
 // scan(arguments, line): a measured face.
 int scan(LuaState& lua, lua_State* L) {
   DeckState& state = DeckState::of(lua);
@@ -271,7 +252,8 @@ int scan(LuaState& lua, lua_State* L) {
   lua.hold_reserved(made, bytes);
   say(fmt::format("field.file '{}': {} points, smoothed over {:.3g} mm", made->file(), made->n_points(),
                   1e3 * made->smooth()));
-  doubt_scan(*made, origin);
+  if (const std::string text = doubt_of_outliers(made->points()); !text.empty())
+    warn(origin.prefix() + "field.file '" + made->file() + "': " + text);
   push_object(L, {"field", "field.file", "", -1, made});
   return 1;
 }

@@ -185,7 +185,7 @@ void follow(const Substructure& part_1, const Substructure* part_2, const Origin
 
 }  // namespace
 
-std::vector<Surface> make_surfaces(const Problem& problem) {
+std::vector<Surface> make_surfaces(const Problem& problem, bool has_checked_parts) {
   std::vector<Surface> surfaces;
   SharedLaws laws;
   const int n = static_cast<int>(problem.interfaces.size());
@@ -241,7 +241,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     }
   }
   check_overlaps(problem, surfaces);
-  refuse_seams(problem, surfaces);
+  if (!has_checked_parts) refuse_seams(problem, surfaces);
   check_preloads(problem, surfaces);
   return surfaces;
 }

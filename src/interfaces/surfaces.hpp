@@ -27,8 +27,9 @@ struct Surface {
 };
 
 // All interfaces in the problem's order, then every wall support used in a step, one Surface a face of it.
-// Throws InputError when faces do not meet or overlap another interface's.
-std::vector<Surface> make_surfaces(const Problem& problem);
+// Throws InputError when faces do not meet or overlap another interface's. has_checked_parts: an earlier run of the
+// same parts has looked for seams within them.
+std::vector<Surface> make_surfaces(const Problem& problem, bool has_checked_parts = false);
 
 // Whether a surface has a part in a step: walls are supports in it, laws carry forces in steps of its kind.
 bool takes_part(const Problem& problem, const Step& step, const Surface& surface);

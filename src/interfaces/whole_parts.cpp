@@ -115,15 +115,9 @@ bool are_near(const std::vector<LoosePiece>& pieces) {
   return false;
 }
 
-thread_local bool seams_are_known = false;
-
 }  // namespace
 
-SeamsAreKnown::SeamsAreKnown(bool are_known) { seams_are_known = are_known; }
-SeamsAreKnown::~SeamsAreKnown() { seams_are_known = false; }
-
 void refuse_seams(const Problem& problem, const std::vector<Surface>& surfaces) {
-  if (seams_are_known) return;
   const std::vector<int> parts = parts_to_look_at(problem);
   std::vector<std::string> texts(parts.size());
   parallel_for(static_cast<int>(parts.size()), [&](int k) {

@@ -9,15 +9,6 @@ namespace dygita {
 // interface there: nodes that were not merged, nodes in the middle of a neighbour's facet, solids in one volume.
 void refuse_seams(const Problem& problem, const std::vector<Surface>& surfaces);
 
-// While there is one, on this thread: the parts at hand are those of an earlier run, which has looked at their seams.
-class SeamsAreKnown {
- public:
-  explicit SeamsAreKnown(bool are_known);
-  ~SeamsAreKnown();
-  SeamsAreKnown(const SeamsAreKnown&) = delete;
-  SeamsAreKnown& operator=(const SeamsAreKnown&) = delete;
-};
-
 // Says with warn() which parts are in pieces that are near each other or of which one is held by nothing. Those of a
 // part that stands for several bodies, each with its interfaces, are taken as they are.
 void doubt_loose_pieces(const Problem& problem, const std::vector<Surface>& surfaces);

@@ -21,7 +21,7 @@ constexpr int few_points = 32;  // are solved before threads have met
 double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }
 
 // Rounds that no longer bring the forces closer. Ties in a loop whose jumps do not quite add up to zero have forces
-// that drift for ever, by as little in each round as the jumps are off, while the velocities stay.
+// that drift without bound, by as little in each round as the jumps are off, while the velocities stay.
 class RoundsInVain {
  public:
   bool are_too_many(double change, double small) {

@@ -6,7 +6,6 @@
 #include "base/aside.hpp"
 #include "base/progress.hpp"
 #include "base/task.hpp"
-#include "interfaces/whole_parts.hpp"
 #include "latin/search_direction.hpp"
 #include "marching/shared_trail.hpp"
 #include "marching/sharing.hpp"
@@ -74,10 +73,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
   SharedTrail shared_trail(kept_trail);
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();
-  const std::vector<Surface> surfaces = [&] {
-    const SeamsAreKnown known(setting.shared && setting.shared->are_made());
-    return make_surfaces(problem);
-  }();
+  const std::vector<Surface> surfaces = make_surfaces(problem, setting.shared && setting.shared->are_made());
   SharedOperators own;
   const bool shares = setting.shared && setting.shared->serve(problem, surfaces);
   SharedOperators& operators = shares ? *setting.shared : own;

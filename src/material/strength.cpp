@@ -35,7 +35,7 @@ void check_couplings(const Mat3& shares) {
     if (value < -rounding)
       throw InputError(fmt::format(
           "'strength.f12' = {:g}, 'f13' = {:g} and 'f23' = {:g} are too large together: 1 + 2 f12 f13 f23 - f12^2 - "
-          "f13^2 - f23^2 must not be negative, else some stress could grow for ever\n    -0.5 each is usual",
+          "f13^2 - f23^2 must not be negative, else some stress could grow without bound\n    -0.5 each is usual",
           shares(0, 1), shares(0, 2), shares(1, 2)));
 }
 
@@ -66,7 +66,7 @@ Strength::Strength(const std::map<std::string, double>& given, Criterion criteri
     if (given.at("yt") > 2.0 * given.at("s23"))
       throw InputError(
           fmt::format("'strength.yt' = {:g} Pa is more than twice 'strength.s23' = {:g} Pa: Hashin's "
-                      "criterion would let equal pulls along axes 2 and 3 grow for ever",
+                      "criterion would let equal pulls along axes 2 and 3 grow without bound",
                       given.at("yt"), given.at("s23")));
     return;
   }

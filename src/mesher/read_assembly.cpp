@@ -181,7 +181,7 @@ size_t count_in_file(const std::string& file, const std::string& entity) {
   return n;
 }
 
-// A spoiled file loses solids without a word of OpenCASCADE's.
+// A spoiled file loses solids, and OpenCASCADE does not say so.
 void doubt_losses(const std::string& file, size_t n_solids) {
   if (kind_of_file(file) != "step") return;
   const size_t n = count_in_file(file, "MANIFOLD_SOLID_BREP(") + count_in_file(file, "BREP_WITH_VOIDS(");

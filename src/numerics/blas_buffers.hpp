@@ -3,7 +3,7 @@
 
 namespace dygita {
 
-// Has OpenBLAS set its buffers for so many threads aside now: where it cannot have one later, it asks for ever.
+// Has OpenBLAS set its buffers for so many threads aside now: where it cannot have one later, it retries without limit.
 void take_blas_buffers(int n_threads);
 
 }  // namespace dygita

@@ -79,8 +79,8 @@ class CondensedPiece final : public ImplicitPiece {
   // Of the increment at hand: the condensed right-hand side, and the interface's answer.
   Vec b_, dv_b_;
   Vec v_rows_;  // V0 at the rows, where the piece solves for the change
-  Vec whole_rhs_,
-      whole_;  // what H itself was last multiplied with, and its answer; empty: H has no form in half precision
+  // What H itself was last multiplied with, and its answer; empty: H has no form in half precision.
+  Vec whole_rhs_, whole_;
   double quiet_ = 0.0;
   bool is_forward_due_ = false, is_moved_ = false;  // the forward solve is put off; the interfaces have moved
   long n_solved_ = 0, n_spared_ = 0;

@@ -154,7 +154,8 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 
-// Set aside while a run computes; what each thread takes in BLAS, where OpenBLAS waits for ever if it cannot have it.
+// Set aside while a run computes; what each thread takes in BLAS, where OpenBLAS retries without limit if it cannot
+// have it.
 constexpr std::size_t memory_for_results = 4 * heap_growth, memory_of_thread = std::size_t{136} << 20;
 
 // What LATIN is given besides the problem.

@@ -143,4 +143,22 @@ std::vector<ScanOutlier> outliers_of(const std::vector<ScanPoint>& points) {
   return outliers;
 }
 
+std::string doubt_of_outliers(const std::vector<ScanPoint>& points) {
+  constexpr size_t most = 8;
+  const std::vector<ScanOutlier> outliers = outliers_of(points);
+  if (outliers.empty()) return "";
+  const auto& [point, off, scatter] = outliers.front();
+  std::string others;
+  for (size_t i = 1; i < std::min(most, outliers.size()); ++i)
+    others += fmt::format("{}{} ({:.3g} um)", i == 1 ? "; likewise of lines " : ", ", outliers[i].point->line,
+                          1e6 * outliers[i].off);
+  if (outliers.size() > most) others += fmt::format(" and {} more", outliers.size() - most);
+  return fmt::format(
+      "the height in line {}, {:.6g} um at ({:.6g}, {:.6g}) mm, is {:.3g} um off the plane through the eight points "
+      "around it, which are {:.3g} um off theirs{}: measured wrongly? it is used as it stands; take the line out of "
+      "the "
+      "file, or smooth = over more than one distance between points",
+      point->line, 1e6 * point->height, 1e3 * point->u, 1e3 * point->v, 1e6 * off, 1e6 * scatter, others);
+}
+
 }  // namespace dygita

@@ -24,4 +24,7 @@ void refuse_two_heights(const std::vector<ScanPoint>& points, const std::string&
 // worst first.
 std::vector<ScanOutlier> outliers_of(const std::vector<ScanPoint>& points);
 
+// What a warning says of them: the worst in full, the others by their lines; empty: there are none.
+std::string doubt_of_outliers(const std::vector<ScanPoint>& points);
+
 }  // namespace dygita

@@ -19,7 +19,7 @@ namespace dygita::fuzz {
 
 namespace {
 
-constexpr double time_limit = 5.0;    // s: scripts without an end are many
+constexpr double time_limit = 5.0;    // s: many scripts are infinite loops
 constexpr double latest = 60.0;       // s, until it is stopped, on a machine that is busy
 constexpr double size_in_cad = 5e-3;  // m: few cells, since it is not gmsh's meshing that is to be tried
 

@@ -192,7 +192,7 @@ def draw_dynamic_steps(rng, scene, hold):
 
 
 def thrown_together(rng, scene):
-    """A part, and mostly all that hang on it by more than contact, so that no tie joins unlike velocities."""
+    """A part, and mostly all that are joined to it by more than contact, so that no tie joins unlike velocities."""
     group = {rng.randrange(len(scene["parts"]))}
     while rng.random() < 0.9:
         more = {side[0] for joint in scene["joints"] if joint["law"] != "contact" and group & {joint["a"][0], joint["b"][0]} for side in (joint["a"], joint["b"])}
