@@ -2,6 +2,7 @@
 
 import compare
 import geometry
+import switched_off
 import variations
 from deck import Writer
 from program import latin
@@ -93,6 +94,8 @@ class Trial:
             return fails(f"other {why}")
         if not found:
             return fails("nothing to compare")
+        if compare.lets_go(self.scene, switched_off.held_parts(self.scene), against):
+            return undecided("a part touches nothing at the end of a static step: no place of it is the right one")
         worst = max(found.values(), key=lambda d: d.size)
         if worst.size <= allowed:
             return holds(worst.size)
