@@ -77,6 +77,7 @@ local turns = {
   component = function(_, value) return value end,
   motion = function(_, value) return value end,
   held = function(_, value) return value end,
+  own_axes = function(_, value) return value end,
 }
 
 -- A box in the frame is none along the axes of the deck.
@@ -159,6 +160,7 @@ function frames.apply(entry, given, line)
   if kinds.corner and given.low and given.high then turn_box(p, given) end
   if kinds.component then turn_components(p, given, line) end
   if kinds.motion then turn_motion(entry, p, given, line) end
+  if kinds.own_axes then given.axes = { table.unpack(p, 1, 9) } end
   if kinds.held then
     local is_on = axes_of_deck(entry, p, { given.x, given.y, given.z }, line)
     given.x, given.y, given.z = is_on[1] or false, is_on[2] or false, is_on[3] or false

@@ -114,12 +114,20 @@ local by_hand = {
     { "tapped", type = "boolean", default = false, doc = "screwed into the last part, without a nut" },
   },
 }
-local function spring_along(axis)
-  return { axis, type = "number", unit = "N/m", range = { 0, 1e15 }, default = 0, default_doc = "none", doc = "stiffness along " .. axis }
-end
-
-local function damper_along(axis)
-  return { axis .. "_damping", type = "number", unit = "N s/m", range = { 0, 1e12 }, default = 0, default_doc = "none", doc = "damper beside it" }
+-- The six springs of a bushing and their dampers, in the order of the arguments.
+local function with_springs(arguments, last)
+  local kinds = { { "", "N/m", "N s/m", "along " }, { "about_", "N m", "N m s", "of the mean rotation about " } }
+  for _, is_damper in ipairs { false, true } do
+    for _, kind in ipairs(kinds) do
+      for _, axis in ipairs { "x", "y", "z" } do
+        local key, unit, what = kind[1] .. axis, kind[2], "stiffness " .. kind[4] .. axis .. (kind[1] ~= "" and ", for a radian" or "")
+        if is_damper then key, unit, what = key .. "_damping", kind[3], "damper beside it" end
+        table.insert(arguments, { key, in_frame = "own_axes", type = "number", unit = unit, range = { 0, is_damper and 1e12 or 1e15 }, default = 0, default_doc = "none", doc = what })
+      end
+    end
+  end
+  table.insert(arguments, last)
+  return arguments
 end
 
 local function share_of_bolt(of)
@@ -630,22 +638,29 @@ words[5] = {
       .. "(*EQUATION, MPC). It joins places of one part, or of two; with one place it holds the mean motion of that.",
     arguments = {
       name_of "support", on({ "face", "region" }, "its terms: faces, which move as their mean by area does, or regions, as the mean of their nodes"),
-      { "factors", type = "numbers", or_single = true, at_least = 1, range = { -1e9, 1e9 }, required = true, doc = "one a place: { 1, -1 } makes two places move alike" },
-      { "x", in_frame = "held", type = "boolean", default = false, doc = "along x" },
-      { "y", in_frame = "held", type = "boolean", default = false, doc = "along y" },
-      { "z", in_frame = "held", type = "boolean", default = false, doc = "along z" },
-      frame "along whose axes x, y and z are: all three, or those of a plane of the deck",
+      { "factors", type = "numbers", or_single = true, at_least = 1, range = { -1e9, 1e9 }, default_doc = "`terms`", doc = "one a place: { 1, -1 } makes two places move alike" },
+      { "x", in_frame = "own_axes", type = "boolean", default = false, doc = "along x" },
+      { "y", in_frame = "own_axes", type = "boolean", default = false, doc = "along y" },
+      { "z", in_frame = "own_axes", type = "boolean", default = false, doc = "along z" },
+      { "terms", in_frame = "own_axes", type = "tables", default_doc = "`factors`",
+        doc = "one equation whose terms are along several axes, instead of `factors` and `x`, `y`, `z`: one a place, { { x = 2 }, { y = -1, z = 0.5 } }",
+        fields = {
+          { "x", type = "number", range = { -1e9, 1e9 }, default = 0, doc = "factor of the motion along x" },
+          { "y", type = "number", range = { -1e9, 1e9 }, default = 0, doc = "along y" },
+          { "z", type = "number", range = { -1e9, 1e9 }, default = 0, doc = "along z" },
+        } },
+      frame "along whose axes x, y and z are",
     },
   },
   {
     "spring", makes = "support",
-    doc = "Springs, and dampers beside them, along the axes of the deck: between the mean motions of two places (*SPRING, CELAS, CBUSH), or of one and the ground.",
-    arguments = {
+    doc = "Springs, and dampers beside them, along x, y and z and about them: between the mean motions of two places (*SPRING, CELAS, CBUSH), or of one and the ground. "
+      .. "Where two places are apart, a spring across the line between them leaves the moment of its two forces unbalanced: such springs belong between places at one point.",
+    arguments = with_springs({
       name_of "support",
       { "on", type = "objects", kinds = { "face", "region" }, at_least = 1, or_single = true, required = true,
         doc = "one place or two: faces, which move as their mean by area does, or regions, as the mean of their nodes" },
-      spring_along "x", spring_along "y", spring_along "z", damper_along "x", damper_along "y", damper_along "z",
-    },
+    }, frame "along whose axes x, y and z are"),
   },
   {
     "wall", makes = "support", doc = "A rigid wall: unilateral contact with friction.",
@@ -683,7 +698,7 @@ words[6] = {
   },
   {
     "torque", makes = "load",
-    doc = "A moment about an axis, right-handed, spread over a face as tractions around the axis that grow with the radius.",
+    doc = "A moment about an axis, right-handed, spread over a face as tractions that grow with the radius, around the axis where it is across the face or `through` is given.",
     arguments = {
       on({ "face" }, "twisted faces: each gets the torque"),
       { "axis", in_frame = "direction", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },

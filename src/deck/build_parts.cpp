@@ -252,27 +252,52 @@ Content build_substructure(const Declaration& d) {
   return SubstructurePtr(part);
 }
 
+// Of each place what it counts with: factors, of springs 1 and -1, or terms along axes.
+void set_sum(const Declaration& d, Support& support) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(d.origin, fmt::format("{} '{}': {}", d.path, support.name, why));
+  };
+  const size_t n = support.on.size();
+  if (support.kind->spring(0)) {
+    if (n > 2) fail(fmt::format("'on' has {} places: a spring is between two, or one and the ground", n));
+    support.factors = {1.0, -1.0};
+    support.factors.resize(n);
+    return;
+  }
+  const bool has_terms = d.arguments.has("terms");
+  if (has_terms == d.arguments.has("factors"))
+    fail("it takes 'factors' with x, y or z = true, or 'terms' along several axes, one of them");
+  if (has_terms)
+    d.arguments.each("terms", [&](const LuaArguments& term) {
+      const Vec3 along = support.axes * Vec3(term.number("x"), term.number("y"), term.number("z"));
+      support.factors.push_back(along.norm());
+      support.terms.push_back(along.normalized());
+    });
+  else
+    support.factors = d.arguments.numbers("factors");
+  const char* const key = has_terms ? "terms" : "factors";
+  if (support.factors.size() != n)
+    fail(fmt::format("'on' has {} places and '{}' {} {}: one a place", n, key, support.factors.size(),
+                     has_terms ? "of them" : "numbers"));
+  for (size_t i = 0; i < n; ++i)
+    if (support.factors[i] == 0.0) fail(fmt::format("'{}[{}]' is 0: leave its place out", key, i + 1));
+}
+
 Content build_support(const Declaration& d) {
   auto support = new_named<Support>(d);
   support->on = d.arguments.places("on");
-  support->kind = make_support(d.arguments.word(), d.arguments.plain_numbers());
-  if (support->kind->spring(0)) {
-    if (support->on.size() > 2)
-      throw InputError(
-          d.origin, fmt::format("{} '{}': 'on' has {} places: a spring is between two, or one and the ground", d.path,
-                                support->name, support->on.size()));
-    support->factors = {1.0, -1.0};
-    support->factors.resize(support->on.size());
+  std::map<std::string, double> numbers = d.arguments.plain_numbers();
+  if (d.arguments.has("terms") && numbers["x"] + numbers["y"] + numbers["z"] > 0.0)
+    throw InputError(d.origin, fmt::format("{} '{}': 'terms' say along which axes; x, y and z go with 'factors'",
+                                           d.path, support->name));
+  if (d.arguments.has("terms")) numbers["x"] = 1.0;
+  support->kind = make_support(d.arguments.word(), numbers);
+  if (support->kind->sums() == Directions::none) return SupportPtr(support);
+  if (d.arguments.has("axes")) {
+    const std::vector<double> axes = d.arguments.numbers("axes");
+    support->axes = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(axes.data());
   }
-  if (!d.arguments.has("factors")) return SupportPtr(support);
-  support->factors = d.arguments.numbers("factors");
-  if (support->factors.size() != support->on.size())
-    throw InputError(d.origin, fmt::format("{} '{}': 'on' has {} places and 'factors' {} numbers: one a place", d.path,
-                                           support->name, support->on.size(), support->factors.size()));
-  for (size_t i = 0; i < support->factors.size(); ++i)
-    if (support->factors[i] == 0.0)
-      throw InputError(d.origin,
-                       fmt::format("{} '{}': 'factors[{}]' is 0: leave its place out", d.path, support->name, i + 1));
+  set_sum(d, *support);
   return SupportPtr(support);
 }
 

@@ -107,8 +107,11 @@ void warn_of_unconstrained(const Problem& problem, const Step& step,
     const std::set<std::string> each(all.begin(), all.end());
     std::string text;
     for (const std::string& motion : each) text += (text.empty() ? "" : " and ") + motion;
-    warn(fmt::format("static step '{}': {} of substructure '{}' {} unconstrained; it carries no load and stays at zero",
-                     step.name, text, name, each.size() == 1 ? "is" : "are"));
+    const bool is_one = each.size() == 1;
+    warn(
+        fmt::format("static step '{}': {} of substructure '{}' {} unconstrained, and no load acts along {}; the part "
+                    "moves that way only as others push it",
+                    step.name, text, name, is_one ? "is" : "are", is_one ? "it" : "them"));
   }
 }
 

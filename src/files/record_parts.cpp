@@ -105,14 +105,22 @@ namespace {
 
 void add_sum(const Support& sum, Json& json) {
   json["factors"] = sum.factors;
-  Json axes = Json::object();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!sum.kind->sums().axes[static_cast<size_t>(axis)]) continue;
+  const auto numbers = [](const Vec3& v) { return std::vector<double>(v.begin(), v.end()); };
+  if (!sum.axes.isIdentity(0.0))
+    for (int d = 0; d < 3; ++d) json["axes"].push_back(numbers(sum.axes.col(d)));
+  if (!sum.terms.empty()) {
+    for (const Vec3& along : sum.terms) json["terms"].push_back(numbers(along));
+    return;
+  }
+  Json along = Json::object(), about = Json::object();
+  for (int axis = 0; axis < 6; ++axis) {
     const auto spring = sum.kind->spring(axis);
-    axes[std::string(1, "xyz"[axis])] =
+    if (spring ? spring->stiffness == 0.0 : axis > 2 || !sum.kind->sums().axes[static_cast<size_t>(axis)]) continue;
+    (axis < 3 ? along : about)[std::string(1, "xyz"[axis % 3])] =
         spring ? Json({{"stiffness", spring->stiffness}, {"damping", spring->damping}}) : Json("held");
   }
-  json["along"] = axes;
+  json["along"] = along;
+  if (!about.empty()) json["about"] = about;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "numerics/frame_along.hpp"
 
 namespace dygita {
 
@@ -64,21 +65,25 @@ void AbaqusConstraints::read_equations(const PlacedCard& placed) {
 }
 
 void AbaqusConstraints::add_equation(const PlacedCard& placed, const DataLine& first, const Given& given, Terms& last) {
-  Terms terms;
-  std::set<int> seen;
+  std::map<int, Vec3> of_nodes;
+  std::set<std::pair<int, long>> seen;
+  std::set<long> axes;
   for (size_t i = 0; i < given.size(); i += 3) {
     const LineFields fields(file_, *given[i].first);
     const long d = fields.whole_of(given[i + 1].second, "a direction");
     if (d < 1 || d > 3) fields.fail(fmt::format("*EQUATION: direction {}: displacements are 1 to 3", d));
-    if (terms.axis >= 0 && terms.axis != d - 1) fields.fail("*EQUATION: terms along several axes");
-    terms.axis = static_cast<int>(d) - 1;
+    axes.insert(d - 1);
     const std::vector<int> nodes = model_.nodes_of(*placed.scope, fields, given[i].second);
     if (nodes.size() != 1) fields.fail("*EQUATION: each term is of one node");
     if (turned_.contains(nodes[0])) fields.fail("*EQUATION: in axes of *TRANSFORM");
-    if (!seen.insert(nodes[0]).second) fields.fail("*EQUATION: a node twice");
-    terms.nodes[fields.real_of(given[i + 2].second, "a factor")].push_back(nodes[0]);
+    if (!seen.emplace(nodes[0], d).second) fields.fail("*EQUATION: a node twice along one axis");
+    of_nodes.try_emplace(nodes[0], Vec3::Zero()).first->second[d - 1] = fields.real_of(given[i + 2].second, "a factor");
   }
+  if (axes.size() > 1) return add_along_axes(first, of_nodes);
+  Terms terms;
+  terms.axis = static_cast<int>(*axes.begin());
   const auto axis = static_cast<size_t>(terms.axis);
+  for (const auto& [node, factors] : of_nodes) terms.nodes[factors[terms.axis]].push_back(node);
   if (note_end(terms)) return;
   if (terms == last && !equations.back().along[axis]) {
     equations.back().along[axis] = true;
@@ -94,6 +99,20 @@ void AbaqusConstraints::add_equation(const PlacedCard& placed, const DataLine& f
       equation.terms.push_back(
           {place_of(model_.model(), which, first, nodes), factor * static_cast<double>(nodes.size())});
   }
+  equations.push_back(std::move(equation));
+}
+
+// Terms along several axes: a place for the nodes of each factor.
+void AbaqusConstraints::add_along_axes(const DataLine& first, const std::map<int, Vec3>& of_nodes) {
+  std::map<std::array<double, 3>, std::vector<int>> alike;
+  for (const auto& [node, factors] : of_nodes)
+    if (!factors.isZero(0.0)) alike[{factors[0], factors[1], factors[2]}].push_back(node);
+  AbaqusEquation equation;
+  equation.where = file_.where(first.file, first.line);
+  for (const auto& [factors, nodes] : alike)
+    equation.terms.push_back(
+        {place_of(model_.model(), fmt::format("equation {}", equation.terms.size() + 1), first, nodes),
+         static_cast<double>(nodes.size()), Vec3(factors[0], factors[1], factors[2])});
   equations.push_back(std::move(equation));
 }
 
@@ -165,19 +184,24 @@ void AbaqusConstraints::add_spring(const Spring& spring, std::vector<FileSpring>
   const LineFields fields(file_, *spring.line);
   const auto& x = model_.model().nodes;
   const Vec3 along = x[static_cast<size_t>(spring.other)] - x[static_cast<size_t>(spring.one)];
-  int axis = 0;
-  if (!(along.cwiseAbs().maxCoeff(&axis) > (1 - 1e-9) * along.norm()) || along.isZero(0.0))
-    fields.fail("*SPRING: a spring that is along none of the axes");
-  FileSpring found{"", "", spring.stiffness * Vec3::Unit(axis), Vec3::Zero(), spring.where};
+  if (along.isZero(0.0)) fields.fail("*SPRING: its ends are at one place, and it has no direction");
+  std::vector<int> axes;
+  for (int d = 0; d < 3; ++d)
+    if (std::abs(along[d]) > 1e-9 * along.norm()) axes.push_back(d);
+  FileSpring found{"", "", {spring.stiffness}, {}, frame_along(along.normalized()), spring.where};
   for (const int node : {spring.one, spring.other}) {
-    if (loose_ends_.contains(node) && held_ends_.contains(node) && held_ends_.at(node)[static_cast<size_t>(axis)])
-      continue;
     std::vector<int> nodes{node};
     if (loose_ends_.contains(node)) {
-      const auto mean = ends_as_means_.find({node, axis});
-      if (mean == ends_as_means_.end())
-        fields.fail("*SPRING: an end of it is of no cell, is not held, and follows none");
-      nodes = mean->second;
+      const auto held = held_ends_.find(node);
+      if (held != held_ends_.end() &&
+          std::all_of(axes.begin(), axes.end(), [&](int d) { return held->second[static_cast<size_t>(d)]; }))
+        continue;
+      for (const int d : axes) {
+        const auto mean = ends_as_means_.find({node, d});
+        if (mean == ends_as_means_.end() || (d != axes[0] && mean->second != nodes))
+          fields.fail("*SPRING: an end of it is of no cell, is not held along it, and follows no mean");
+        nodes = mean->second;
+      }
     }
     (found.one.empty() ? found.one : found.other) =
         place_of(model_.model(), found.one.empty() ? "spring from" : "spring to", *spring.line, nodes);
@@ -217,18 +241,27 @@ void AbaqusConstraints::read_constraints(const PlacedCard& placed) {
 
 // One node of a constraint as a sum of others, whose shares make 1, along some axes.
 void AbaqusConstraints::follow(const FileCard& card, int node, const std::vector<std::pair<int, double>>& others,
-                               const std::array<bool, 3>& along) {
+                               const std::vector<Vec3>& along) {
   constexpr double nothing = 1e-9;
   const DataLine line{"", card.file, card.line};
   const std::string number = std::to_string(equations.size() + 1);
   AbaqusEquation equation{
-      {{place_of(model_.model(), "mpc " + number + " of", line, {node}), 1.0}}, along, file_.where(card)};
+      {{place_of(model_.model(), "mpc " + number + " of", line, {node}), 1.0}}, {}, file_.where(card)};
   for (size_t i = 0; i < others.size(); ++i)
     if (std::abs(others[i].second) > nothing)
       equation.terms.push_back(
           {place_of(model_.model(), fmt::format("mpc {} by {}", number, i + 1), line, {others[i].first}),
            -others[i].second});
-  equations.push_back(std::move(equation));
+  if (std::all_of(along.begin(), along.end(), [](const Vec3& e) { return e.cwiseAbs().maxCoeff() > 1 - nothing; })) {
+    for (const Vec3& e : along)
+      for (size_t d = 0; d < 3; ++d) equation.along[d] = equation.along[d] || std::abs(e[static_cast<int>(d)]) > 0.5;
+    equations.push_back(equation);
+    return;
+  }
+  for (const Vec3& e : along) {
+    for (AbaqusEquation::Term& term : equation.terms) term.along = e;
+    equations.push_back(equation);
+  }
 }
 
 void AbaqusConstraints::keep_straight(const FileCard& card, const std::vector<int>& nodes) {
@@ -238,11 +271,8 @@ void AbaqusConstraints::keep_straight(const FileCard& card, const std::vector<in
   for (size_t i = 2; i < nodes.size(); ++i)
     if ((x(static_cast<int>(i)) - x(0)).norm() > (x(static_cast<int>(last)) - x(0)).norm()) last = i;
   const Vec3 along = x(static_cast<int>(last)) - x(0);
-  int axis = 0;
-  if (!(along.cwiseAbs().maxCoeff(&axis) > (1 - 1e-9) * along.norm()))
-    file_.fail(card, "STRAIGHT along none of the axes");
-  std::array<bool, 3> across = {true, true, true};
-  across[static_cast<size_t>(axis)] = false;
+  const Mat3 frame = frame_along(along.normalized());
+  const std::vector<Vec3> across = {frame.col(1), frame.col(2)};
   for (size_t i = 1; i < nodes.size(); ++i) {
     if (i == last) continue;
     const Vec3 own = x(static_cast<int>(i)) - x(0);
@@ -263,12 +293,8 @@ void AbaqusConstraints::keep_plane(const FileCard& card, const std::vector<int>&
   for (size_t i = 1; i < nodes.size(); ++i)
     if (along.cross(x(i) - x(0)).norm() > along.cross(x(c) - x(0)).norm()) c = i;
   const Vec3 normal = along.cross(x(c) - x(0));
-  int axis = 0;
-  if (!(normal.norm() > 1e-6 * along.squaredNorm()) ||
-      !(normal.cwiseAbs().maxCoeff(&axis) > (1 - 1e-9) * normal.norm()))
-    file_.fail(card, "PLANE across none of the axes");
-  std::array<bool, 3> across = {false, false, false};
-  across[static_cast<size_t>(axis)] = true;
+  if (!(normal.norm() > 1e-6 * along.squaredNorm())) file_.fail(card, "PLANE: its nodes are on a line");
+  const std::vector<Vec3> across = {normal.normalized()};
   for (size_t i = 1; i < nodes.size(); ++i) {
     if (i == b || i == c) continue;
     const Vec3 own = x(i) - x(0);

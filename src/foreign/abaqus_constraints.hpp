@@ -12,15 +12,18 @@
 
 namespace dygita {
 
-// Along each of some axes, the sum of factors times the mean displacements of sets of nodes is zero.
+// Along each of some axes, the sum of factors times the mean displacements of sets of nodes is zero; along none of
+// them, one sum of terms that have axes of their own.
 struct AbaqusEquation {
   struct Term {
     std::string place;
     double factor;
+    Vec3 along = Vec3::Zero();
   };
   std::vector<Term> terms;
   std::array<bool, 3> along = {};
   std::string where;
+  bool has_axes() const { return along[0] || along[1] || along[2]; }
 };
 
 // Adds a set for nodes that a card lists by numbers, called by its line: "boundary 45".
@@ -57,13 +60,14 @@ class AbaqusConstraints {
   void find_loose_ends();
   void read_equations(const PlacedCard& placed);
   void add_equation(const PlacedCard& placed, const DataLine& first, const Given& given, Terms& last);
+  void add_along_axes(const DataLine& first, const std::map<int, Vec3>& of_nodes);
   bool note_end(const Terms& terms);
   void read_spring(const PlacedCard& placed);
   int end_of(const PlacedCard& placed, LineFields& fields) const;
   void add_spring(const Spring& spring, std::vector<FileSpring>& springs);
   void read_constraints(const PlacedCard& placed);
   void follow(const FileCard& card, int node, const std::vector<std::pair<int, double>>& others,
-              const std::array<bool, 3>& along);
+              const std::vector<Vec3>& along);
   void keep_straight(const FileCard& card, const std::vector<int>& nodes);
   void keep_plane(const FileCard& card, const std::vector<int>& nodes);
 

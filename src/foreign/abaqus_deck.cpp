@@ -88,6 +88,14 @@ class AbaqusDeck : public ImportedDeck {
     has_contact_ = has_contact_ || !joint.is_tie;
   }
 
+  static std::string term_of(const Vec3& factors) {
+    std::vector<std::string> along;
+    for (int d = 0; d < 3; ++d)
+      if (std::abs(factors[d]) > 1e-12 * factors.norm())
+        along.push_back(fmt::format("{} = {}", "xyz"[d], lua_number(factors[d])));
+    return "{ " + comma_list(along) + " }";
+  }
+
   void write_equation(const AbaqusEquation& equation) {
     std::vector<std::string> on, factors;
     std::string along;
@@ -97,13 +105,13 @@ class AbaqusDeck : public ImportedDeck {
       if (part < 0)
         return leave(fmt::format("{}: *EQUATION: a node of it is on no part, or nodes are on several", equation.where));
       on.push_back(fmt::format("{}:region {}", part_names_[static_cast<size_t>(part)], lua_quoted(term.place)));
-      factors.push_back(lua_number(term.factor));
+      factors.push_back(equation.has_axes() ? lua_number(term.factor) : term_of(term.factor * term.along));
     }
     for (size_t d = 0; d < 3; ++d)
       if (equation.along[d]) along += fmt::format(", {} = true", "xyz"[d]);
     const std::string name = names_.of("equation", std::to_string(equations_.size() + 1));
-    put("local {} = support.equation{{ name = {}, on = {{ {} }}, factors = {{ {} }}{} }}  -- {}", name,
-        lua_quoted(name), comma_list(on), comma_list(factors), along, equation.where);
+    put("local {} = support.equation{{ name = {}, on = {{ {} }}, {} = {{ {} }}{} }}  -- {}", name, lua_quoted(name),
+        comma_list(on), equation.has_axes() ? "factors" : "terms", comma_list(factors), along, equation.where);
     equations_.push_back(name);
   }
 

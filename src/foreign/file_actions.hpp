@@ -36,10 +36,11 @@ struct FileBody {
   std::string where;
 };
 
-// Springs along the axes of the file between the means of two sets of nodes, or of one and the ground.
+// Springs between the mean motions of two sets of nodes, or of one and the ground: along axes, and about them.
 struct FileSpring {
   std::string one, other;  // other: empty, the ground
-  Vec3 stiffness, damping;
+  std::array<double, 6> stiffness{}, damping{};
+  Mat3 axes;
   std::string where;
 };
 

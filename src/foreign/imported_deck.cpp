@@ -11,6 +11,19 @@ namespace dygita {
 
 namespace {
 
+// Without a frame where its axes are those of the file in another order.
+FileSpring plain(FileSpring spring) {
+  const Mat3 size = spring.axes.cwiseAbs();
+  constexpr double rounding = 1e-9;
+  if ((size * size.transpose() - Mat3::Identity()).norm() > rounding) return spring;
+  for (std::array<double, 6>* values : {&spring.stiffness, &spring.damping}) {
+    Eigen::Map<Eigen::Matrix<double, 3, 2>> of(values->data());
+    of = (size * of).eval();
+  }
+  spring.axes = Mat3::Identity();
+  return spring;
+}
+
 using Kind = FileAction::Kind;
 constexpr double density_of_steel = 7850;  // kg/m^3, where the file gives none and only statics are asked for
 constexpr const char* axis_names = "xyz";
@@ -137,7 +150,8 @@ std::vector<std::string> ImportedDeck::places(const std::string& given, bool is_
   return found;
 }
 
-std::string ImportedDeck::put_spring(const FileSpring& spring, size_t number) {
+std::string ImportedDeck::put_spring(const FileSpring& given, size_t number) {
+  const FileSpring spring = plain(given);
   std::vector<std::string> on;
   for (const std::string& place : {spring.one, spring.other}) {
     if (place.empty()) continue;
@@ -149,15 +163,19 @@ std::string ImportedDeck::put_spring(const FileSpring& spring, size_t number) {
     on.push_back(fmt::format("{}:region {}", part_names_[static_cast<size_t>(part)], lua_quoted(place)));
   }
   std::string along;
-  for (int d = 0; d < 3; ++d) {
-    if (spring.stiffness[d] == 0.0 && spring.damping[d] != 0.0)
+  for (size_t i = 0; i < 6; ++i) {
+    const std::string key = (i < 3 ? "" : "about_") + std::string(1, axis_names[i % 3]), unit = i < 3 ? "/" : "*";
+    if (spring.stiffness[i] == 0.0 && spring.damping[i] != 0.0)
       leave(fmt::format("{}: a damper without a spring", spring.where));
-    if (spring.stiffness[d] == 0.0) continue;
-    along += fmt::format(", {} = {}*force/length", axis_names[d], lua_number(spring.stiffness[d]));
-    if (spring.damping[d] != 0.0)
-      along += fmt::format(", {}_damping = {}*force*time/length", axis_names[d], lua_number(spring.damping[d]));
+    if (spring.stiffness[i] == 0.0) continue;
+    along += fmt::format(", {} = {}*force{}length", key, lua_number(spring.stiffness[i]), unit);
+    if (spring.damping[i] != 0.0)
+      along += fmt::format(", {}_damping = {}*force*time{}length", key, lua_number(spring.damping[i]), unit);
   }
   if (along.empty()) return "";
+  if (!spring.axes.isIdentity(0.0))
+    along += fmt::format(", frame = frame{{ x = {}, axis = {} }}", lua_vector(spring.axes.col(0)),
+                         lua_vector(spring.axes.col(2)));
   const std::string name = names_.of("spring", std::to_string(number));
   put("local {} = support.spring{{ name = {}, on = {{ {} }}{} }}  -- {}", name, lua_quoted(name), comma_list(on), along,
       spring.where);

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 
 namespace dygita {
@@ -26,6 +27,13 @@ std::string lua_number(double value) {
     if (const std::string text = fmt::format("{:.{}g}", value, digits); std::strtod(text.c_str(), nullptr) == value)
       return text;
   return fmt::format("{:.17g}", value);
+}
+
+std::string lua_vector(const Vec3& x) {
+  constexpr double zero = 1e-15;
+  std::vector<std::string> numbers;
+  for (int d = 0; d < 3; ++d) numbers.push_back(lua_number(std::abs(x[d]) < zero ? 0.0 : x[d]));
+  return "{ " + comma_list(numbers) + " }";
 }
 
 std::string comma_list(const std::vector<std::string>& items) {

@@ -5,12 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "numerics/types.hpp"
+
 namespace dygita {
 
 // "plate" in quotes, with what Lua needs escaped.
 std::string lua_quoted(const std::string& text);
 // As few digits as read back to the same number.
 std::string lua_number(double value);
+// "{ x, y, z }", rounding to zero as zero.
+std::string lua_vector(const Vec3& x);
 // "a, b, c".
 std::string comma_list(const std::vector<std::string>& items);
 // A name that a deck takes for a part: without what cannot name a file.

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "foreign/nastran_supports.hpp"
+#include "numerics/frame_along.hpp"
 
 namespace dygita {
 
@@ -81,7 +82,7 @@ void NastranBodies::add_body(NastranSpider& spider) {
 // A node of cells, or nodes of which another one is the mean.
 NastranBodies::End NastranBodies::end_at(int node, const BulkCard& card, const BulkFields& fields) {
   const Vec3 x = place_of(node);
-  if (of_cells_.contains(node)) return {add_place(model_.model(), card, {node}), x};
+  if (of_cells_.contains(node)) return {add_place(model_.model(), card, {node}), x, false};
   std::vector<NastranSpider*> around;
   for (NastranSpider& spider : spiders_)
     if (spider.centre == node) around.push_back(&spider);
@@ -91,7 +92,7 @@ NastranBodies::End NastranBodies::end_at(int node, const BulkCard& card, const B
   if ((middle_of(around[0]->feet) - x).norm() > at_one_place * size_of(around[0]->feet))
     fields.fail(fmt::format("node {} is not in the middle of its RBE3", number));
   around[0]->is_said = true;
-  return {add_place(model_.model(), *around[0]->card, around[0]->feet), x};
+  return {add_place(model_.model(), *around[0]->card, around[0]->feet), x, true};
 }
 
 const BulkCard& NastranBodies::property(const char* name, long number, const BulkFields& fields) const {
@@ -111,45 +112,51 @@ void NastranBodies::add_spring(const BulkCard& card) {
 }
 
 void NastranBodies::add_bushing(const BulkCard& card, const BulkFields& fields) {
-  constexpr int orientation = 5, system = 8, row = 8, rotations = 3;
+  constexpr int row = 8;
   const BulkCard& of =
       property("PBUSH", fields.whole_or(2, fields.whole(1, "a number"), "the number of a property"), fields);
   const BulkFields values(model_.file(), of);
-  std::array<double, 6> stiffness{}, damping{};
+  FileSpring spring{"", "", {}, {}, Mat3::Identity(), model_.file().where(card)};
   for (int i = 2; i <= values.size(); i += row) {
     const std::string word = values.word(i);
     if (word == "RCV" || word.empty()) continue;
     for (int d = 0; d < 6; ++d) {
       const double value = values.real_or(i + 1 + d, 0.0, "a number");
-      if (word == "K") stiffness[static_cast<size_t>(d)] = value;
-      if (word == "B") damping[static_cast<size_t>(d)] = value;
+      if (word == "K") spring.stiffness[static_cast<size_t>(d)] = value;
+      if (word == "B") spring.damping[static_cast<size_t>(d)] = value;
       if (word != "K" && word != "B" && value != 0.0) values.fail(fmt::format("{} of a bushing", word));
     }
   }
-  for (size_t d = rotations; d < 6; ++d)
-    if (stiffness[d] != 0.0 || damping[d] != 0.0) values.fail("K4 to K6, B4 to B6: stiffness against rotation");
-  Vec3 k(stiffness[0], stiffness[1], stiffness[2]), b(damping[0], damping[1], damping[2]);
-  const int node = model_.node(fields.whole(3, "a node"), fields);
-  if (fields.has(system)) {
-    const Mat3 axes = model_.places().system(fields.whole(system, "a coordinate system"), card).axes_at(place_of(node));
-    const Mat3 turned = axes.cwiseAbs();
-    if (((turned * turned.transpose()) - Mat3::Identity()).norm() > 1e-9)
-      fields.fail("axes that are none of the file's");
-    k = turned * k;
-    b = turned * b;
-  } else if (k != Vec3::Constant(k[0]) || b != Vec3::Constant(b[0])) {
-    fields.fail(fields.has(orientation) ? "axes by a node or a vector"
-                                        : "no axes (CID), and unlike stiffness along them");
-  }
-  const End one = end_at(node, card, fields);
-  FileSpring spring{one.place, "", k, b, model_.file().where(card)};
+  const End one = end_at(model_.node(fields.whole(3, "a node"), fields), card, fields);
+  bool turns = one.turns;
+  spring.one = one.place;
   if (fields.has(4)) {
     const End other = end_at(model_.node(fields.whole(4, "a node"), fields), card, fields);
     if ((one.x - other.x).norm() > at_one_place * (1.0 + one.x.norm()))
       fields.fail("its nodes are not at one place, and its force has an arm");
     spring.other = other.place;
+    turns = turns && other.turns;
   }
+  for (size_t d = 3; d < 6; ++d)
+    if (!turns && (spring.stiffness[d] != 0.0 || spring.damping[d] != 0.0))
+      values.fail("K4 to K6, B4 to B6: a node of a solid does not turn; give the spring the centre of an RBE3");
+  spring.axes = axes_of_bushing(card, fields, spring);
   springs.push_back(std::move(spring));
+}
+
+// By a coordinate system; without one any will do where stiffness and damping are the same along all.
+Mat3 NastranBodies::axes_of_bushing(const BulkCard& card, const BulkFields& fields, const FileSpring& spring) const {
+  constexpr int orientation = 5, system = 8;
+  if (fields.has(system))
+    return model_.places()
+        .system(fields.whole(system, "a coordinate system"), card)
+        .axes_at(place_of(model_.node(fields.whole(3, "a node"), fields)));
+  for (const auto& values : {spring.stiffness, spring.damping})
+    for (const size_t first : {0, 3})
+      if (values[first] != values[first + 1] || values[first] != values[first + 2])
+        fields.fail(fields.has(orientation) ? "axes by a node or a vector"
+                                            : "no axes (CID), and unlike stiffness along them");
+  return Mat3::Identity();
 }
 
 // CELAS1: number, property, node, component, node, component. CELAS2: the stiffness in place of the property.
@@ -163,28 +170,33 @@ void NastranBodies::add_scalar(const BulkCard& card, const BulkFields& fields) {
                     .real(2, "a stiffness");
   if (fields.has(7) && card.name == "CELAS2" && fields.real(7, "a damping") != 0.0) fields.fail("structural damping");
   Vec3 along = Vec3::Zero();
+  bool is_rotation = false;
   std::vector<End> ends;
   for (const int i : {3, 5}) {
     if (!fields.has(i) || fields.whole(i, "a node") == 0) continue;
     const long component = fields.whole(i + 1, "a component");
-    if (component < 1 || component > 3) fields.fail(fmt::format("component {}: displacements are 1 to 3", component));
+    if (component < 1 || component > 6) fields.fail(fmt::format("component {}: they are 1 to 6", component));
+    if (!ends.empty() && is_rotation != (component > 3)) fields.fail("a displacement and a rotation");
+    is_rotation = component > 3;
     const int node = model_.node(fields.whole(i, "a node"), fields);
     const NastranGrid& grid = model_.places().grids()[static_cast<size_t>(node)];
-    const Vec3 axis = model_.places().system(grid.motion_system, card).axes_at(grid.x).col(component - 1);
+    const Vec3 axis = model_.places().system(grid.motion_system, card).axes_at(grid.x).col((component - 1) % 3);
     if (!ends.empty() && (axis - along).norm() > 1e-9) fields.fail("its two components have unlike directions");
     along = axis;
     ends.push_back(end_at(node, card, fields));
   }
-  int d = 0;
-  if (ends.empty() || 1.0 - along.cwiseAbs().maxCoeff(&d) > 1e-9) fields.fail("axes that are none of the file's");
+  if (ends.empty()) fields.fail("it has no node");
+  for (const End& end : ends)
+    if (is_rotation && !end.turns) fields.fail("a node of a solid does not turn; give it the centre of an RBE3");
   if (ends.size() == 2) {
-    Vec3 apart = ends[0].x - ends[1].x;
-    apart[d] = 0.0;
-    if (apart.norm() > at_one_place * (1.0 + ends[0].x.norm()))
+    const Vec3 apart = ends[0].x - ends[1].x;
+    if (!is_rotation && (apart - apart.dot(along) * along).norm() > at_one_place * (1.0 + ends[0].x.norm()))
       fields.fail("its nodes are not on a line along its direction");
   }
-  springs.push_back({ends[0].place, ends.size() == 2 ? ends[1].place : "", stiffness * Vec3::Unit(d), Vec3::Zero(),
-                     model_.file().where(card)});
+  FileSpring spring{
+      ends[0].place, ends.size() == 2 ? ends[1].place : "", {}, {}, frame_along(along), model_.file().where(card)};
+  spring.stiffness[is_rotation ? 3 : 0] = stiffness;
+  springs.push_back(std::move(spring));
 }
 
 }  // namespace dygita

@@ -1,4 +1,4 @@
-// CONM2 behind the nodes of an RBE2 or RBE3, and CBUSH and CELAS1, CELAS2 as springs along the axes of the file.
+// CONM2 behind the nodes of an RBE2 or RBE3, and CBUSH and CELAS1, CELAS2 as springs.
 #pragma once
 
 #include <set>
@@ -28,12 +28,14 @@ class NastranBodies {
   struct End {
     std::string place;
     Vec3 x;
+    bool turns;  // it is the mean of several nodes
   };
   Vec3 place_of(int node) const { return model_.places().grids()[static_cast<size_t>(node)].x; }
   Vec3 middle_of(const std::vector<int>& nodes) const;
   double size_of(const std::vector<int>& nodes) const;
   Mat3 inertia_of(const BulkFields& fields) const;
   End end_at(int node, const BulkCard& card, const BulkFields& fields);
+  Mat3 axes_of_bushing(const BulkCard& card, const BulkFields& fields, const FileSpring& spring) const;
   void add_bushing(const BulkCard& card, const BulkFields& fields);
   void add_scalar(const BulkCard& card, const BulkFields& fields);
   const BulkCard& property(const char* name, long number, const BulkFields& fields) const;

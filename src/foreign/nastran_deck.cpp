@@ -10,13 +10,6 @@ namespace dygita {
 
 namespace {
 
-std::string lua_vector(const Vec3& x) {
-  constexpr double zero = 1e-15;
-  std::vector<std::string> numbers;
-  for (int d = 0; d < 3; ++d) numbers.push_back(lua_number(std::abs(x[d]) < zero ? 0.0 : x[d]));
-  return "{ " + comma_list(numbers) + " }";
-}
-
 class NastranDeck : public ImportedDeck {
  public:
   NastranDeck(const ImportOptions& options, NastranModel& read, NastranAnalysis analysis)

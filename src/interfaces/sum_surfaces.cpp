@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,99 +11,202 @@
 #include "meeting/sum_facing.hpp"
 #include "model/extent.hpp"
 #include "model/places.hpp"
+#include "numerics/dense.hpp"
+#include "numerics/frame_along.hpp"
 
 namespace dygita {
 
 namespace {
 
-// Of one part: nodes with their weights, and rotations of rigid faces that nodes follow, with their arms.
-struct Terms {
-  std::map<int, double> weights;
-  std::map<int, Vec3> arms;
-
-  void add(const Interior& body, int node, double weight) {
+// Of one part: what the motion of each node adds to the sum, row . u.
+class Terms {
+ public:
+  // Of a node that follows a rigid face: row . (u_point + u_turn / size x arm).
+  void add(const Interior& body, int node, const Vec3& row) {
     const Interior::Follower* own = body.follower(node);
-    weights[own ? own->point : node] += weight;
-    if (own && own->turn >= 0) arms.try_emplace(own->turn, Vec3::Zero()).first->second += weight * own->arm / own->size;
+    add(own ? own->point : node, row);
+    if (own && own->turn >= 0) add(own->turn, own->arm.cross(row) / own->size);
   }
-
-  // Rotation x arm is -arm x rotation.
-  std::pair<std::vector<SideTrace::Share>, Mat3> shares(double sign) const {
-    std::vector<SideTrace::Share> all;
-    for (const auto& [node, weight] : weights)
-      if (weight != 0.0) all.push_back({node, sign * weight});
-    for (const auto& [node, arm] : arms) all.push_back({node, 0.0, sign * arm});
-    return {all, arms.empty() ? Mat3(Mat3::Zero()) : Mat3(-Mat3::Identity())};
-  }
+  void add(int node, const Vec3& row) { rows_.try_emplace(node, Vec3::Zero()).first->second += row; }
 
   double square() const {
     double sum = 0.0;
-    for (const auto& [node, weight] : weights) sum += weight * weight;
+    for (const auto& [node, row] : rows_) sum += row.squaredNorm();
     return sum;
+  }
+  const Vec3& largest() const {
+    const auto shorter = [](const auto& a, const auto& b) {
+      return a.second.squaredNorm() < (1.0 - 1e-9) * b.second.squaredNorm();
+    };
+    return std::max_element(rows_.begin(), rows_.end(), shorter)->second;
+  }
+
+  // A point whose motion along e is the sum: e . (t V + d x V) = row . V with t = e . row, d = row x e.
+  void add_point(double sign, const Vec3& e, SideTrace& trace) const {
+    std::vector<SideTrace::Share> shares;
+    bool has_arms = false;
+    for (const auto& [node, row] : rows_) {
+      Vec3 arm = row.cross(e);
+      if (arm.norm() < 1e-14 * row.norm()) arm.setZero();
+      has_arms = has_arms || !arm.isZero(0.0);
+      if (!row.isZero(0.0)) shares.push_back({node, sign * e.dot(row), sign * arm});
+    }
+    trace.add(shares, has_arms ? Mat3(Mat3::Identity()) : Mat3(Mat3::Zero()));
+  }
+  bool are_none() const { return square() == 0.0; }
+
+ private:
+  std::map<int, Vec3> rows_;
+};
+
+// The nodes of a place with their shares of its mean motion, and what turns them: of the rotation nearest to theirs in
+// the sense of least squares, J^-1 sum m r x u, one about an axis k is sum m ((J^-1 k) x r) . u.
+struct Place {
+  const Substructure* part;
+  std::vector<std::pair<int, double>> shares;
+  Vec3 centre = Vec3::Zero();                 // m
+  Mat3 inertia = Mat3::Zero();                // m^2
+  const Interior::Follower* whole = nullptr;  // all nodes follow one rigid face
+
+  explicit Place(const FaceOrRegion& on) : part(&part_of(on)), shares(mean_of(on)) {
+    for (const auto& [node, share] : shares) centre += share * part->mesh->nodes.col(node);
+    for (const auto& [node, share] : shares) {
+      const Vec3 r = part->mesh->nodes.col(node) - centre;
+      inertia += share * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+    }
+    whole = part->mesh->inside->follower(shares.front().first);
+    for (const auto& [node, share] : shares) {
+      const Interior::Follower* own = part->mesh->inside->follower(node);
+      if (!own || own->turn < 0 || own->turn != whole->turn) whole = nullptr;
+    }
+  }
+  // m, of gyration.
+  double radius() const { return std::max(std::sqrt(0.5 * inertia.trace()), whole ? whole->size : 0.0); }
+
+  void add_motion(const Vec3& along, Terms& terms) const {
+    for (const auto& [node, share] : shares) terms.add(*part->mesh->inside, node, share * along);
+  }
+  // along: a unit vector times a length. Answers whether there is a rotation.
+  bool add_rotation(const Vec3& about, Terms& terms) const {
+    if (whole) {
+      terms.add(whole->turn, about / whole->size);
+      return true;
+    }
+    const PrincipalAxes principal = principal_axes(inertia);
+    constexpr double least = 1e-9;
+    if (!(principal.values[0] > least * principal.values[2])) return false;
+    const Vec3 axis = inertia.inverse() * about;
+    for (const auto& [node, share] : shares)
+      terms.add(*part->mesh->inside, node, share * axis.cross(part->mesh->nodes.col(node) - centre));
+    return true;
   }
 };
 
-// Its terms by part: the motion of a place is that of its nodes, by the area behind them on a face. Factors are scaled,
-// so that those of one sign make at most 1.
-Surface surface_of_sum(const Problem& problem, const Support& sum) {
-  double positive = 0.0, negative = 0.0, square = 0.0, length = 0.0;
-  for (const double factor : sum.factors) (factor > 0 ? positive : negative) += std::abs(factor);
-  const double scale = 1.0 / std::max(positive, negative);
-  std::map<int, Terms> terms;  // by part
-  Vec3 place = Vec3::Zero();
-  for (size_t i = 0; i < sum.on.size(); ++i) {
-    const Substructure& part = part_of(sum.on[i]);
-    Terms& own = terms[index_of(problem.substructures, &part)];
-    for (const auto& [node, share] : mean_of(sum.on[i])) {
-      own.add(*part.mesh->inside, node, scale * sum.factors[i] * share);
-      place += share / static_cast<double>(sum.on.size()) * (part.mesh->nodes.col(node) + part.place);
+// All lines of a support are of the same places.
+class Sum {
+ public:
+  Sum(const Problem& problem, const Support& sum) : problem_(problem), sum_(sum) {
+    for (const FaceOrRegion& on : sum.on) {
+      const Place& place = places_.emplace_back(on);
+      parts_.try_emplace(index_of(problem.substructures, place.part));
+      place_ += (place.centre + place.part->place) / static_cast<double>(sum.on.size());
+      const Mesh& mesh = *place.part->mesh;
+      const double size = mesh.has_cells() ? std::cbrt(volume(mesh)) : extent_of(*place.part).size().norm();
+      length_ = std::max(length_, size / std::cbrt(mesh.n_nodes()));
     }
-    const double size = part.mesh->has_cells() ? std::cbrt(volume(*part.mesh)) : extent_of(part).size().norm();
-    length = std::max(length, size / std::cbrt(part.mesh->n_nodes()));
+    double positive = 0.0, negative = 0.0;
+    for (const double factor : sum.factors) (factor > 0 ? positive : negative) += std::abs(factor);
+    most_ = std::max(positive, negative);
+    all_ = positive + negative;
+    if (parts_.size() > 2) refuse(fmt::format("its places are on {} parts, and two are the most", parts_.size()));
   }
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(sum.origin, fmt::format("support.{} '{}': {}", sum.kind->word(), sum.name, why));
-  };
-  if (terms.size() > 2) refuse(fmt::format("its places are on {} parts, and two are the most", terms.size()));
-  for (const auto& [part, own] : terms) {
-    square += own.square();
-    if (own.shares(1.0).first.empty()) refuse("its terms cancel each other");
+
+  // A line whose terms are along `of_place` of each, times its factor. Factors are scaled, so that those of one sign
+  // make at most 1.
+  Surface along(const std::vector<Vec3>& of_place) const {
+    std::map<int, Terms> terms = parts_;
+    Vec3 net = Vec3::Zero();
+    for (size_t i = 0; i < places_.size(); ++i) {
+      const Vec3 row = sum_.factors[i] / most_ * of_place[i];
+      places_[i].add_motion(row, terms.at(part(i)));
+      net += row;
+    }
+    Surface surface = of(terms, std::pow(all_ / most_, 2), of_place.front().normalized());
+    surface.is_on_ground = net.norm() > 1e-9 * all_ / most_;
+    return surface;
   }
-  Surface surface;
-  surface.wall = &sum;
-  surface.is_on_ground = std::abs(positive - negative) > 1e-9 * (positive + negative);
-  surface.part_1 = terms.begin()->first;
-  if (terms.size() == 2) surface.part_2 = terms.rbegin()->first;
-  // As large as so many nodes of the part.
-  const double n_nodes = std::pow(scale * (positive + negative), 2) / std::max(square, 1e-6);
-  surface.facing = facing_of_sum(place, n_nodes * length * length);
-  const auto [shares_1, turn_1] = terms.begin()->second.shares(1.0);
-  surface.facing.side_1.add(shares_1, turn_1);
-  if (surface.part_2 < 0) return surface;
-  const auto [shares_2, turn_2] = terms.rbegin()->second.shares(-1.0);
-  surface.facing.side_2.add(shares_2, turn_2);
-  return surface;
-}
+  // The rotation of one place about an axis, or that against another's, times a length: that of gyration.
+  std::pair<Surface, double> about(const Vec3& axis) const {
+    const double radius = places_.front().radius();
+    std::map<int, Terms> terms = parts_;
+    for (size_t i = 0; i < places_.size(); ++i)
+      if (!places_[i].add_rotation(sum_.factors[i] * radius * axis, terms.at(part(i))))
+        refuse(fmt::format("the nodes of '{}' lie on a line or at a point, and have no mean rotation",
+                           label_of(sum_.on[i])));
+    Surface surface = of(terms, 1.0, terms.begin()->second.largest().normalized());
+    surface.is_on_ground = places_.size() == 1;
+    surface.is_of_rotation = true;
+    return {surface, radius};
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw InputError(sum_.origin, fmt::format("support.{} '{}': {}", sum_.kind->word(), sum_.name, why));
+  }
+  int part(size_t i) const { return index_of(problem_.substructures, places_[i].part); }
+
+  // A point that moves along e, and is as large as whole / sum of squares of the rows nodes.
+  Surface of(const std::map<int, Terms>& terms, double whole, const Vec3& e) const {
+    double square = 0.0;
+    for (const auto& [part, own] : terms) {
+      square += own.square();
+      if (own.are_none()) refuse("its terms cancel each other");
+    }
+    Surface surface;
+    surface.wall = &sum_;
+    surface.part_1 = terms.begin()->first;
+    surface.facing = facing_of_sum(place_, whole / std::max(square, 1e-6) * length_ * length_);
+    surface.facing.frames = {frame_along(e)};
+    surface.facing.directions = {{true, false, false}};
+    surface.facing.normals = e;
+    terms.begin()->second.add_point(1.0, e, surface.facing.side_1);
+    if (terms.size() == 1) return surface;
+    surface.part_2 = terms.rbegin()->first;
+    terms.rbegin()->second.add_point(-1.0, e, surface.facing.side_2);
+    return surface;
+  }
+
+  const Problem& problem_;
+  const Support& sum_;
+  std::vector<Place> places_;
+  std::map<int, Terms> parts_;  // empty, one a part
+  Vec3 place_ = Vec3::Zero();   // m
+  double length_ = 0.0;         // m, between nodes
+  double most_ = 0.0, all_ = 0.0;
+};
 
 }  // namespace
 
-// A point for all axes of an equation, one for each spring: along its normal.
+// One point a line: each is a direction of its own.
 void add_sums(const Problem& problem, const Support& sum, std::vector<Surface>& surfaces) {
-  const Surface whole = surface_of_sum(problem, sum);
-  const auto add = [&](const Mat3& frame, const std::array<bool, 3>& along, const LawPtr& law) {
-    Surface& surface = surfaces.emplace_back(whole);
-    surface.facing.frames = {frame};
-    surface.facing.directions = {along};
-    surface.facing.normals = frame.col(0);
+  const Sum of(problem, sum);
+  const auto add = [&](Surface surface, const LawPtr& law) {
     surface.law = law;
+    surfaces.push_back(std::move(surface));
   };
-  const Directions axes = sum.kind->sums();
-  if (!sum.kind->spring(0)) return add(Mat3::Identity(), axes.axes, sum.kind->law());
+  if (!sum.terms.empty()) return add(of.along(sum.terms), sum.kind->law());
   for (int axis = 0; axis < 3; ++axis) {
-    if (!axes.axes[static_cast<size_t>(axis)]) continue;
-    Mat3 frame;
-    for (int d = 0; d < 3; ++d) frame.col(d) = Vec3::Unit((axis + d) % 3);
-    add(frame, {true, false, false}, law_of_spring(*sum.kind->spring(axis), whole.facing.areas[0]));
+    const auto spring = sum.kind->spring(axis);
+    if (spring ? spring->stiffness == 0.0 : !sum.kind->sums().axes[static_cast<size_t>(axis)]) continue;
+    const Surface surface = of.along(std::vector<Vec3>(sum.on.size(), sum.axes.col(axis)));
+    add(surface, spring ? law_of_spring(*spring, surface.facing.areas[0]) : sum.kind->law());
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto spring = sum.kind->spring(3 + axis);
+    if (!spring || spring->stiffness == 0.0) continue;
+    const auto [surface, radius] = of.about(sum.axes.col(axis));
+    const double square = radius * radius;
+    add(surface, law_of_spring({spring->stiffness / square, spring->damping / square}, surface.facing.areas[0]));
   }
 }
 

@@ -15,8 +15,9 @@ struct Surface {
   const Support* wall = nullptr;
   int part_1 = -1, part_2 = -1;  // index in problem.substructures; -1: rigid
   Facing facing;
-  LawPtr law;                 // of its points; null: a tie in all steps, the sides become a group
-  bool is_on_ground = false;  // a wall, or an equation whose factors do not cancel: a part alone is held by it
+  LawPtr law;                   // of its points; null: a tie in all steps, the sides become a group
+  bool is_on_ground = false;    // a wall, or an equation whose factors do not cancel: a part alone is held by it
+  bool is_of_rotation = false;  // a spring about an axis: what acts at its point is a moment over a length
 
   // The law of the interface or the wall, ties included.
   const Law& declared_law() const {

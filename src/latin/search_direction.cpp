@@ -43,14 +43,14 @@ NodeAreas node_areas(const StepModel& model) {
   return areas;
 }
 
-// kg, what a force on a sum moves: 1/m is the sum of t^2/m over its nodes.
-double mass_of_sum(const StepModel& model, const Port& port) {
+// kg, what a force on a sum moves along the normal of its point: 1/m is the sum of t^2/m over its nodes.
+double mass_of_sum(const StepModel& model, const Surface& surface, const Port& port) {
+  const Vec3 normal = surface.facing.normals.col(port.point);
   const Vec& masses = model.pieces[port.piece]->node_masses();
   double inverse = 0.0;
   for (int k = 0; k < port.trace->n_shares(port.point); ++k) {
-    const SideTrace::Share& share = port.trace->share(port.point, k);
-    const double mass = masses[model.cut->owner(port.part, share.node).node];
-    if (mass > 0.0) inverse += share.weight * share.weight / mass;
+    const double mass = masses[model.cut->owner(port.part, port.trace->share(port.point, k).node).node];
+    if (mass > 0.0) inverse += (port.trace->block(port.point, k).transpose() * normal).squaredNorm() / mass;
   }
   return inverse > 0.0 ? 1.0 / inverse : 0.0;
 }
@@ -59,7 +59,8 @@ double mass_of_sum(const StepModel& model, const Port& port) {
 double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas) {
   const Vec& masses = model.pieces[port.piece]->node_masses();
   if (!port.trace) return masses[port.piece_node];
-  if ((*model.surfaces)[static_cast<size_t>(port.side / 2)].facing.is_of_sums()) return mass_of_sum(model, port);
+  const Surface& surface = (*model.surfaces)[static_cast<size_t>(port.side / 2)];
+  if (surface.facing.is_of_sums()) return mass_of_sum(model, surface, port);
   double sum = 0.0, weights = 0.0;
   for (int k = 0; k < port.trace->n_shares(port.point); ++k) {
     const SideTrace::Share& share = port.trace->share(port.point, k);

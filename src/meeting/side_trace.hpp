@@ -51,7 +51,7 @@ class SideTrace {
   // The same of a field that of_node(node) answers for.
   template <class OfNode>
   Vec3 at_nodes(int i, OfNode&& of_node) const {
-    if (is_of_one_node(i) && share(i, 0).weight == 1.0) return of_node(share(i, 0).node);
+    if (is_of_one_node(i) && share(i, 0).weight == 1.0 && turn_of_[i] < 0) return of_node(share(i, 0).node);
     Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
     for (int k = 0; k < n_shares(i); ++k) {
       const Share& own = share(i, k);

@@ -79,7 +79,9 @@ using FaceOrRegion = std::variant<Face, Region>;
 struct Support : Named {
   SupportKindPtr kind;
   std::vector<FaceOrRegion> on;
-  std::vector<double> factors;  // of an equation, one a place; else none
+  std::vector<double> factors;   // of an equation or a spring, one a place; else none
+  std::vector<Vec3> terms;       // of an equation of one line: instead of them, along x, y and z of each place
+  Mat3 axes = Mat3::Identity();  // of an equation or a spring: its x, y and z
 };
 using SupportPtr = std::shared_ptr<const Support>;
 

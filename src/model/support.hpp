@@ -26,7 +26,7 @@ inline constexpr Directions Directions::normal{.along_normals = true};
 inline constexpr Directions Directions::all{.axes = {true, true, true}};
 
 struct SpringAlong {
-  double stiffness = 0.0, damping = 0.0;  // N/m, N s/m
+  double stiffness = 0.0, damping = 0.0;  // N/m, N s/m; about an axis N m, N m s
 };
 
 class SupportKind {
@@ -47,7 +47,7 @@ class SupportKind {
   virtual LawPtr law() const = 0;
   // Axes along which a weighted sum of the motions of its places is held; none: each place is held by itself.
   virtual Directions sums() const = 0;
-  // What holds a sum along an axis (0, 1, 2); nothing: it is zero.
+  // What holds a sum along an axis (0, 1, 2), or a rotation about it (3, 4, 5); nothing: the sum is zero.
   virtual std::optional<SpringAlong> spring(int axis) const = 0;
 
   // Can it be shaken? Then it holds something where there is time.

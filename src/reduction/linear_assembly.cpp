@@ -12,6 +12,7 @@
 #include "fem/mass.hpp"
 #include "law/law.hpp"
 #include "numerics/dense.hpp"
+#include "numerics/frame_along.hpp"
 
 namespace dygita {
 
@@ -34,17 +35,6 @@ void add_condition(LinearAssembly& assembly, int a, int b, const Vec3& direction
   assembly.conditions.push_back({{a, b}, {direction, Vec3(-direction)}});
 }
 
-// N and two tangents.
-Mat3 frame_of(const Vec3& normal) {
-  int least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  Mat3 frame;
-  frame.col(0) = normal;
-  frame.col(1) = normal.cross(Vec3::Unit(least)).normalized();
-  frame.col(2) = normal.cross(frame.col(1));
-  return frame;
-}
-
 // Counts a point of contact by what it does along the normal and the tangents.
 void count_contact(const Tangent& tangent, LinearAssembly& assembly) {
   const auto carries = [&](int d) { return tangent.holds[d] || tangent.stiffness[d] > 0.0; };
@@ -56,7 +46,7 @@ void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, L
   const Surface& surface = (*instant.model.surfaces)[s];
   const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
   const Mat3 frame = surface.facing.is_of_sums() ? surface.facing.frames[static_cast<size_t>(i)]
-                                                 : frame_of(surface.facing.normals.col(i));
+                                                 : frame_along(surface.facing.normals.col(i));
   for (int d = 0; d < 3; ++d) {
     if (!surface.facing.acts_along(i, d)) continue;
     if (!tangent.holds[d] && tangent.damping[d] == 0.0 && tangent.stiffness[d] == 0.0) continue;
@@ -88,7 +78,7 @@ void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& ass
       const int a = assembly.first_node[surface.part_1] + surface.facing.side_1.main_node(i);
       const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.side_2.main_node(i) : -1;
       const Tangent tangent = law.tangent(instant.surface(s).points[i], ties_sliding);
-      const Mat3 frame = frame_of(surface.facing.normals.col(i));
+      const Mat3 frame = frame_along(surface.facing.normals.col(i));
       const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
       for (int d = 0; d < 3; ++d)
         if (tangent.holds[d]) add_condition(assembly, a, b, n_held == 3 ? Vec3(Vec3::Unit(d)) : Vec3(frame.col(d)));

@@ -190,7 +190,8 @@ std::string stress_line(const Problem& problem, const RunResult& result) {
 std::string surface_line(const Surface& surface) {
   const Facing& facing = surface.facing;
   if (facing.is_of_sums())
-    return surface.wall ? fmt::format("  equation '{}'\n", surface.name())
+    return surface.wall ? fmt::format("  {} '{}'{}\n", surface.wall->kind->word(), surface.name(),
+                                      surface.is_of_rotation ? ", a rotation" : "")
                         : fmt::format("  interface '{}': mean motions of {} and {}\n", surface.name(),
                                       surface.interface->side_1.label(), surface.interface->side_2.label());
   std::string line = fmt::format("  {} '{}': {} points, {:.4g} mm^2", surface.interface ? "interface" : "wall",

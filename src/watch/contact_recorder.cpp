@@ -3,11 +3,13 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "law/law.hpp"
 #include "ranks/ranks.hpp"
 #include "result/result.hpp"
+#include "watch/linked_parts.hpp"
 
 namespace dygita {
 
@@ -112,6 +114,7 @@ void ContactRecorder::follow_friction(const Instant& instant) {
 void ContactRecorder::tell(RunResult& result) const {
   tell_friction(result);
   tell_chatter(result);
+  tell_let_go(result);
 }
 
 void ContactRecorder::tell_friction(RunResult& result) const {
@@ -142,6 +145,42 @@ void ContactRecorder::tell_chatter(RunResult& result) const {
                     "'damping', use numerical_damping (implicit parts) or solver.explicit, or a smaller dt",
                     of.step->name, contact.name, every, of.lowest, of.highest, 100.0 * change));
   }
+}
+
+// A part that touched at first and has lost touch is where iteration has left it: no force brings it back, and none has
+// taken it further.
+void ContactRecorder::find_let_go(const Instant& instant) {
+  constexpr double rounding = 1e-10;  // of the size of a contact
+  let_go_.clear();                    // a later step may load what an earlier one leaves loose
+  constexpr double all = 1.0 - 1e-9;
+  const auto is_open = [&](const Watched& watched) { return contacts_[watched.contact].steps.back().closed < all; };
+  if (std::none_of(watched_.begin(), watched_.end(), is_open)) return;
+  for (const int part : LinkedParts::let_go(instant)) {
+    LetGo found{instant.model.step, instant.model.problem->substructures[static_cast<size_t>(part)]->name, ""};
+    for (const Watched& watched : watched_) {
+      const Surface& surface = (*instant.model.surfaces)[static_cast<size_t>(watched.surface)];
+      const double nothing = rounding * std::sqrt(contacts_[watched.contact].area);
+      if ((surface.part_1 != part && surface.part_2 != part) || surface.facing.gaps.minCoeff() > nothing) continue;
+      double opening = 0.0;
+      instant.for_each_point_here(watched.surface, [&](int, const LawState& point) {
+        opening = std::max(opening, surface.declared_law().opening(point));
+      });
+      opening = ranks::largest(opening);
+      if (!(opening > std::max(found.opening, nothing))) continue;
+      found.opening = opening;
+      found.contact = surface.name();
+    }
+    let_go_.push_back(found);
+  }
+}
+
+void ContactRecorder::tell_let_go(RunResult& result) const {
+  for (const LetGo& of : let_go_)
+    if (of.opening > 0.0)
+      result.warnings.push_back(fmt::format(
+          "static step '{}': at its end no force acts on substructure '{}': contact '{}' is open by up to {:.3g} um, "
+          "and where the part rests is arbitrary; load it (gravity, a preload), or hold it by a support",
+          of.step->name, of.part, of.contact, 1e6 * of.opening));
 }
 
 void ContactRecorder::look_at(const Instant& instant, Watched& watched, Sums& sums, ContactStep& step) const {
@@ -223,7 +262,8 @@ void ContactRecorder::accept(const Instant& instant) {
       add({n[0], {n[1], n[2], n[3]}, n[4], n[5], {n[6], n[7], n[8]}, n[9], n[10]}, instant.is_static(), c);
   }
   is_new_ = false;
-  if (!instant.is_static()) follow_friction(instant);
+  if (!instant.is_static()) return follow_friction(instant);
+  find_let_go(instant);
 }
 
 void ContactRecorder::settle() {

@@ -18,7 +18,8 @@ class ContactRecorder {
   void accept(const Instant& instant);
   // Once, after the last step: rank 0 knows all.
   void settle();
-  // Warns of friction that dt does not resolve and of chatter, in the contacts that it has given.
+  // Warns of friction that dt does not resolve, of chatter and of parts that nothing touches at the end of the last
+  // static step, in the contacts that it has given.
   void tell(RunResult& result) const;
   // In the order of interfaces and walls.
   std::vector<ContactSummary> take() { return std::move(contacts_); }
@@ -78,8 +79,16 @@ class ContactRecorder {
   void look_at(const Instant& instant, Watched& watched, Sums& sums, ContactStep& step) const;
   void tell_friction(RunResult& result) const;
   void tell_chatter(RunResult& result) const;
+  void tell_let_go(RunResult& result) const;
+  void find_let_go(const Instant& instant);
   void add(const Sums& sums, bool is_static, size_t contact);
 
+  // A substructure that nothing holds at the end of the last static step, and the contact that is open furthest there.
+  struct LetGo {
+    const Step* step;
+    std::string part, contact;
+    double opening = 0.0;  // m
+  };
   std::vector<ContactSummary> contacts_;
   std::vector<std::vector<int>> surfaces_;  // of each contact
   std::vector<Vec3> middles_;               // m, of each contact
@@ -87,6 +96,7 @@ class ContactRecorder {
   bool is_new_ = false;                     // the step: no increment yet
   std::vector<Changes> changes_;            // of each contact in this step, after those of the steps before
   std::vector<Rubbing> rubbing_;            // of each contact in this step, after those of the steps before
+  std::vector<LetGo> let_go_;
 };
 
 }  // namespace dygita

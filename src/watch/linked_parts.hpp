@@ -19,12 +19,18 @@ class LinkedParts {
   void accept(const Instant& instant);
   // All parts are linked: there is nothing to ask for.
   bool are_one() const { return sets_.n_sets() == 1; }
+  // Substructures that at this instant neither a support, a load, a tie nor a force of contact links to what is held,
+  // or, where nothing is, to most others. Collective.
+  static std::vector<int> let_go(const Instant& instant);
   // Kinetic energy (J) of the motions as a whole of groups of linked parts: of those that something holds along `free`
   // alone, of the others along all directions. momenta: kg m/s, three numbers of each piece of the cut.
   double energy_as_wholes(const Instant& instant, std::span<const double> momenta, const Mat3& free) const;
 
  private:
-  void find_forces(const Instant& instant);
+  void link_held(const StepModel& model);
+  void link_ties(const Instant& instant);
+  void find_forces(const Instant& instant, double least = 0.0);
+  int other(const Surface& surface) const;
 
   UnionFind sets_;              // of the substructures, and of what holds them
   int ground_;                  // the latter

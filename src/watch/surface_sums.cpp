@@ -86,6 +86,7 @@ Resultant resultant(const Instant& instant, const Problem& problem, const std::v
   Vec3 tangential = Vec3::Zero();
   for (const int s : surfaces_of(instant, targets)) {
     const Surface& surface = (*instant.model.surfaces)[s];
+    if (surface.is_of_rotation) continue;
     for (int i = 0; i < surface.n_points(); ++i)
       add(r, tangential, instant.surface(s).points[i].force, surface.facing.normals.col(i));
   }

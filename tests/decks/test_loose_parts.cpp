@@ -198,5 +198,37 @@ problem{ name = "pressed_out", substructures = { low, high }, interfaces = { fit
     }
 }
 
+// A block beside which the base is bent: a bulge lifts it, and no force says where it comes to rest.
+TEST(LoosePart, that_touches_nothing_in_the_end_is_told) {
+  const std::string bent = R"(
+local p = param{ press = 0, friction = 0, hold = 0 }
+local alloy = material.elastic{ name = "alloy", young = 51*GPa, poisson = 0, density = 1000 }
+local function box(name, origin, size, cells) return substructure{ name = name, material = alloy, mesh = mesh.box{ origin = origin, size = size, cells = cells } } end
+local base = box("base", { 0, 0, 0 }, { 6*mm, 8*mm, 6*mm }, { 3, 4, 3 })
+local block = box("block", { 0, 2*mm, 6*mm }, { 4*mm, 8*mm, 6*mm }, { 2, 4, 3 })
+local arm = box("arm", { -2*mm, -6*mm, 6*mm }, { 6*mm, 8*mm, 6*mm }, { 1, 1, 1 })
+local seat = interface.contact{ name = "seat", between = { base:face "zmax", block:face "zmin" }, friction = p.friction }
+local supports = { support.fixed{ name = "floor", on = base:face "zmin" } }
+if p.hold == 1 then supports[2] = support.fixed{ name = "hold", on = block:face "ymax" } end
+local loads = { load.pressure{ on = arm:face "xmax", history = 0.86*MPa } }
+if p.press == 1 then loads[2] = load.pressure{ on = block:face "zmax", history = 0.5*MPa } end
+problem{ name = "bent", substructures = { base, block, arm }, interfaces = { seat, interface.bonded{ name = "foot", between = { arm:face "zmin", base:face "zmax" } } },
+  supports = supports, steps = { step.static{ name = "bend", loads = loads } } }:run{}
+)";
+  const auto told = [&](const Settings& settings, const char* solver) {
+    const DeckRun run = run_text(bent, settings, 0, solver)[0];
+    int n = 0;
+    for (const std::string& warning : run.result->warnings)
+      n += warning.find("at its end no force acts on substructure 'block': contact 'seat' is open by up to 1.") !=
+           std::string::npos;
+    return n;
+  };
+  for (const char* solver : solvers) {
+    EXPECT_EQ(told({}, solver), 1) << solver;
+    EXPECT_EQ(told({{"press", "1"}, {"friction", "0.3"}}, solver), 0) << solver;
+    EXPECT_EQ(told({{"hold", "1"}}, solver), 0) << solver;
+  }
+}
+
 }  // namespace
 }  // namespace dygita::test::loose_parts_tests

@@ -177,6 +177,132 @@ problem{ name = "box", substructures = { stub, box }, interfaces = { feet }, sup
   EXPECT_NEAR(at[1] - at[0], 2 * std::numbers::pi / std::sqrt(3e6 / 3 * (1 - zeta * zeta)), 5e-5);
 }
 
+// A rigid body on six springs, alone, in a frame that is turned: each motion has its spring and its mass.
+TEST(Springs, hold_a_body_along_six_axes) {
+  const auto run = [](const std::string& outputs, const std::string& loads, const std::string& solver = "") {
+    return run_text(
+               R"(
+local light = material.elastic{ name = "light", young = 200*GPa, poisson = 0, density = 10 }
+local own = frame{ origin = { 5*mm, 5*mm, 10*mm }, axis = { 1, 2, 3 }, x = { 2, -1, 0.3 } }
+local stub = substructure{ name = "stub", material = light, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 1 } } }
+local box = substructure.rigid{ name = "box", on = stub:face "zmax", mass = 2, inertia = { 1e-3, 1e-3, 1e-3 }, at = { 5*mm, 5*mm, 10*mm } }
+local feet = interface.bonded{ name = "feet", between = { stub:face "zmax", box:face "zmax" } }
+local six = support.spring{ name = "six", on = )" +
+               std::string(solver.find("stub") == std::string::npos ? "box" : "stub") +
+               R"(:face "zmax", frame = own, x = 1e6, y = 2e6, z = 3e6, about_x = 100, about_y = 200, about_z = 400 }
+problem{ name = "box", substructures = { stub, box }, interfaces = { feet }, supports = { six }, )" +
+               (solver.find("iterated") == std::string::npos ? ""
+                                                             : "solver = solver.latin{ static_steps = 'iterated' }, ") +
+               "steps = { step.static{ name = 'load', loads = { " + loads + " } } }, outputs = { " + outputs +
+               R"( } }:run{}
+)")
+        .at(0);
+  };
+  for (const char* on : {"box", "stub"}) {
+    const DeckRun run_modes = run("output.modes{ name = 'modes', n = 6 }", "", on);
+    const std::vector<double>& f = run_modes.column("modes", "frequency");
+    std::vector<double> expected;
+    for (const double ratio : {100 / 1e-3, 200 / 1e-3, 400 / 1e-3, 1e6 / 2, 2e6 / 2, 3e6 / 2})
+      expected.push_back(std::sqrt(ratio) / (2 * std::numbers::pi));
+    std::sort(expected.begin(), expected.end());
+    ASSERT_EQ(f.size(), 6u) << on;
+    for (size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(f[i], expected[i], 2e-3 * expected[i]) << on << i;  // the stub weighs 10 mg
+  }
+  const std::string corner =
+      "output.history{ name = 'c', on = box:where(function(x, y, z) return near(x, 10*mm) and near(y, 10*mm) end), "
+      "quantity = 'displacement' }, output.resultant{ name = 'r', on = six }";
+  for (const char* solver : {"box", "stub", "box iterated", "stub iterated"}) {
+    // About the z axis of the frame: u = theta x r, without a force.
+    const DeckRun turned = run(corner, "load.torque{ on = box:face 'zmax', axis = { 1, 2, 3 }, history = 2 }", solver);
+    const double theta = 2.0 / 400, length = std::sqrt(14.0);
+    const Vec3 axis(1 / length, 2 / length, 3 / length), u = theta * axis.cross(Vec3(5e-3, 5e-3, 0));
+    EXPECT_NEAR(turned.column("c", "x").back(), u[0], 2e-4 * u.norm()) << solver;
+    EXPECT_NEAR(turned.column("c", "y").back(), u[1], 2e-4 * u.norm()) << solver;
+    EXPECT_NEAR(turned.column("c", "z").back(), u[2], 2e-4 * u.norm()) << solver;
+    for (const char* d : {"x", "y", "z"}) EXPECT_NEAR(turned.column("r", d).back(), 0.0, 1e-6) << solver;
+    const DeckRun pulled = run(corner, "load.force{ on = box:face 'zmax', x = 1, y = 2, z = 3 }", solver);
+    EXPECT_NEAR(pulled.column("c", "x").back(), 1 / 3e6, 2e-4 / 3e6) << solver;
+    EXPECT_NEAR(pulled.column("c", "y").back(), 2 / 3e6, 2e-4 / 3e6) << solver;
+    EXPECT_NEAR(pulled.column("r", "z").back(), pulled.column("r", "x").back() * 3, 2e-4) << solver;
+  }
+}
+
+// Turned by a rotational spring of a part that deforms: the free swing has the period and the decrement of its motion.
+TEST(Springs, damp_rotations) {
+  const double k = 200, c = 0.05, inertia = 1e-3, zeta = c / (2 * std::sqrt(k * inertia));
+  for (const char* solver : {"solver = solver.latin{ tolerance = 1e-8 }, ", "solver = solver.monolithic{}, "}) {
+    const DeckRun run = run_text(R"(
+local light = material.elastic{ name = "light", young = 200*GPa, poisson = 0, density = 10 }
+local stub = substructure{ name = "stub", material = light, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 1 } } }
+local box = substructure.rigid{ name = "box", on = stub:face "zmax", mass = 2, inertia = { 1e-3, 1e-3, 1e-3 }, at = { 5*mm, 5*mm, 10*mm } }
+local feet = interface.bonded{ name = "feet", between = { stub:face "zmax", box:face "zmax" } }
+local six = support.spring{ name = "six", on = stub:face "zmin", x = 1e9, y = 1e9, z = 1e9, about_x = 1e6, about_y = 1e6, about_z = 200, about_z_damping = 0.05 }
+local twist = step.static{ name = "twist", loads = { load.torque{ on = box:face "zmax", axis = { 0, 0, 1 }, history = 0.1 } } }
+local swing = step.dynamic{ name = "swing", after = twist, duration = 33*ms, dt = 50*us }
+problem{ name = "box", substructures = { stub, box }, interfaces = { feet }, supports = { six }, )" +
+                                 std::string(solver) + R"(steps = { twist, swing },
+         outputs = { output.history{ name = "c", on = box:where(function(x, y, z) return near(x, 10*mm) and near(y, 10*mm) end), quantity = "displacement" } } }:run{}
+)")
+                            .at(0);
+    const std::vector<double>&time = run.column("c", "time"), &y = run.column("c", "y");
+    // The stub twists too, without warping: G I / h = 1.667e4 N m.
+    const double most = 0.1 * (1 / k + 10e-3 / (1e11 * std::pow(10e-3, 4) / 6)) * 5e-3;
+    EXPECT_NEAR(*std::max_element(y.begin(), y.end()), most, 1e-3 * most) << solver;
+    std::vector<double> peaks, at;
+    for (size_t i = 2; i + 1 < y.size(); ++i)
+      if (y[i] > y[i - 1] && y[i] >= y[i + 1]) {
+        peaks.push_back(y[i]);
+        at.push_back(time[i]);
+      }
+    ASSERT_GE(peaks.size(), 2u) << solver;
+    const double expected = 2 * std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta);
+    EXPECT_NEAR(std::log(peaks[0] / peaks[1]), expected, 0.03 * expected) << solver;
+    EXPECT_NEAR(at[1] - at[0], 2 * std::numbers::pi / std::sqrt(k / inertia * (1 - zeta * zeta)), 1e-4) << solver;
+  }
+}
+
+// A bell crank: 2 u along x of one body is the motion along y of the other, each on springs.
+TEST(Equations, have_terms_along_several_axes) {
+  const auto run = [](const std::string& equation, const std::string& solver) {
+    return run_text(R"(
+local light = material.elastic{ name = "light", young = 200*GPa, poisson = 0, density = 10 }
+local function body(name, x)
+  local stub = substructure{ name = name, material = light, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 1 }, origin = { x, 0, 0 } } }
+  local holds = support.spring{ name = "springs of " .. name, on = stub:face "zmax", x = 1e6, y = 3e6, z = 1e6, about_x = 1e3, about_y = 1e3, about_z = 1e3 }
+  return stub, holds, output.history{ name = name, on = stub:face "zmax", quantity = "displacement" }
+end
+local a, holds_a, of_a = body("a", 0)
+local b, holds_b, of_b = body("b", 30*mm)
+local own = frame{ axis = { 0, 0, 1 }, x = { 1, 1, 0 } }
+local crank = support.equation{ name = "crank", )" +
+                    equation + R"( }
+problem{ name = "crank", substructures = { a, b }, supports = { holds_a, holds_b, crank }, )" +
+                    solver +
+                    R"(steps = { step.static{ name = "pull", loads = { load.force{ on = a:face "zmax", x = 100 } } } },
+         outputs = { of_a, of_b } }:run{}
+)")
+        .at(0);
+  };
+  for (const char* solver :
+       {"", "solver = solver.monolithic{}, ", "solver = solver.latin{ static_steps = 'iterated' }, "}) {
+    const DeckRun crank = run("on = { a:face 'zmax', b:face 'zmax' }, terms = { { x = 2 }, { y = -1 } }", solver);
+    const double u = 100 / (1e6 + 4 * 3e6);
+    EXPECT_NEAR(crank.column("a", "x").back(), u, 1e-4 * u) << solver;
+    EXPECT_NEAR(crank.column("b", "y").back(), 2 * u, 1e-4 * u) << solver;
+    EXPECT_NEAR(crank.column("b", "x").back(), 0.0, 1e-4 * u) << solver;
+    // One place alone moves along y = -x: as an equation of terms, and along an axis of a frame.
+    const double aslant = 100 / (1e6 + 3e6);
+    for (const char* same :
+         {"on = a:face 'zmax', terms = { { x = 1, y = 1 } }", "on = a:face 'zmax', factors = 2, x = true, frame = own",
+          "on = a:face 'zmax', terms = { { x = 3 } }, frame = own"}) {
+      const DeckRun held = run(same, solver);
+      EXPECT_NEAR(held.column("a", "x").back(), aslant, 1e-4 * aslant) << solver << same;
+      EXPECT_NEAR(held.column("a", "y").back(), -aslant, 1e-4 * aslant) << solver << same;
+    }
+  }
+}
+
 // A quarter of a bar pulled through the mean motion of its end contracts there as anywhere; a rigid end would not let
 // it.
 TEST(MeanMotions, pull_a_bar_without_holding_its_end) {

@@ -57,8 +57,11 @@ TEST(AbaqusDeck, has_equations_between_nodes) {
   expect_in(deck, "}, factors = { -1, 0.5, 0.5 }, y = true }");
   expect_in(deck, "supports = { equation_1, equation_2 }");
   EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
-  for (const char* card : {"2\n7,1,1.,10,2,-1.\n", "1\n7,1,1.\n", "2\n7,4,1.,10,4,-1.\n", "2\n7,1,1.,7,1,-1.\n",
-                           "3\n7,1,1.,10,1,-1.\n", "2\n7,1,1.,X0,1,-1.\n"})
+  const std::string oblique = imported("*EQUATION\n5\n7,1,1.,7,2,.5,10,3,-2.\n13,3,-2.,16,1,0.\n" + step);
+  expect_in(oblique, "}, terms = { { z = -4 }, { x = 1, y = 0.5 } } }");
+  EXPECT_EQ(oblique.find("NOT TRANSLATED"), std::string::npos) << oblique;
+  for (const char* card :
+       {"1\n7,1,1.\n", "2\n7,4,1.,10,4,-1.\n", "2\n7,1,1.,7,1,-1.\n", "3\n7,1,1.,10,1,-1.\n", "2\n7,1,1.,X0,1,-1.\n"})
     expect_in(imported("*EQUATION\n" + std::string(card) + step), "NOT TRANSLATED");
 }
 
@@ -68,6 +71,19 @@ TEST(AbaqusDeck, keeps_nodes_on_a_plane_or_a_line) {
   expect_in(deck, "z = true }");
   EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
   expect_in(imported("*MPC\nBEAM, 1, 2\n" + step), "NOT TRANSLATED");
+}
+
+// x = y, and the diagonal of the top: each says one equation for a direction across.
+TEST(AbaqusDeck, keeps_nodes_on_a_plane_or_a_line_that_is_aslant) {
+  const std::string nodes =
+      "*NODE\n801,0.,0.,0.\n802,2.,2.,0.\n803,0.,0.,2.\n804,2.,2.,2.\n805,1.,1.,0.\n806,0.,2.,0.\n807,0.,2.,2.\n808,1.,"
+      "1.,2.\n";
+  const std::string cells = "*ELEMENT, TYPE=C3D6, ELSET=E\n811,801,805,806,803,808,807\n812,805,802,806,808,804,807\n";
+  const std::string deck = imported(nodes + cells + "*MPC\nPLANE, 801, 802, 803, 804\nSTRAIGHT, 801, 805, 802\n" +
+                                    "*STEP\n*STATIC\n*END STEP\n");
+  expect_in(deck, "terms = { { x = 0.707106");
+  expect_in(deck, "local equation_3 = ");
+  EXPECT_EQ(deck.find("NOT TRANSLATED: "), std::string::npos) << deck;
 }
 
 // From the ground at node 901 to node 902, which no cell has and which is the mean of two nodes.
@@ -81,7 +97,14 @@ TEST(AbaqusDeck, has_springs_on_the_means_that_their_ends_are) {
   expect_in(deck, "local spring_1 = support.spring{ name = \"spring_1\", on = { part_e:region \"spring from ");
   expect_in(deck, " }, x = 10*force/length }");
   EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
-  expect_in(imported(ends + spring + step), "is of no cell, is not held, and follows none");
+  expect_in(imported(ends + spring + step), "is of no cell, is not held along it, and follows no mean");
+  std::string aslant = ends;
+  aslant.replace(aslant.find("901,-5.,0.,0."), 13, "901,-5.,3.,0.");
+  expect_in(imported(aslant + "*SPRING, ELSET=S\n\n10.\n" + mean + step), "follows no mean");
+  const std::string means = mean + "*EQUATION\n3\n902,2,1.,7,2,-.5,10,2,-.5\n";
+  aslant.erase(aslant.find("\n902,2,3"));
+  expect_in(imported(aslant + "\n" + means + spring + step),
+            " }, x = 10*force/length, frame = frame{ x = { 0.8, -0.6, 0 }, axis = ");
   expect_in(imported(ends + "*EQUATION\n3\n902,1,1.,7,1,-.5,10,1,-.4\n" + spring + step), "NOT TRANSLATED");
 }
 

@@ -137,7 +137,16 @@ TEST(NastranDeck, has_springs_on_nodes_and_their_means) {
   const std::string equal = "PBUSH,5,K,10.,10.,10.\n";
   expect_in(imported("", equal + "CBUSH,90,5,1,2\n"), "its nodes are not at one place");
   expect_in(imported("", "PBUSH,5,K,10.,20.,30.\nCBUSH,90,5,1\n"), "unlike stiffness");
-  expect_in(imported("", "PBUSH,5,K,10.,10.,10.,5.\nCBUSH,90,5,1,,,,,0\n"), "stiffness against rotation");
+  expect_in(imported("", "PBUSH,5,K,10.,10.,10.,5.\nCBUSH,90,5,1,,,,,0\n"), "a node of a solid does not turn");
+  const std::string mean = "RBE3,92,,22,123456,1.,123,9,10\n,11,12\nSPC1,1,123,4\n";
+  expect_in(imported("", "PBUSH,5,K,10.,10.,10.,5.,6.,7.\n,,B,,,,.5\nCBUSH,90,5,22,,,,,0\n" + mean),
+            "z = 10*force/length, about_x = 5*force*length, about_x_damping = 0.5*force*time*length, about_y = "
+            "6*force*length, about_z = 7*force*length }");
+  expect_in(imported("", "CORD2R,5,,0.,0.,0.,0.,0.,1.\n,.6,.8,0.\nPBUSH,5,K,10.\nCBUSH,90,5,22,,,,,5\n" + mean),
+            "x = 10*force/length, frame = frame{ x = { 0.6, 0.8, 0 }, axis = { 0, 0, 1 } } }");
+  expect_in(imported("", "CELAS2,90,10.,22,5\n" + mean), "about_y = 10*force*length }");
+  expect_in(imported("", "CELAS2,90,10.,22,5,1,2\n" + mean), "a displacement and a rotation");
+  expect_in(imported("", "CELAS2,90,10.,1,5\n"), "a node of a solid does not turn");
   expect_in(imported("", equal + "CBUSH,90,5,20\n"), "node 20 is of no cell");
   expect_in(imported("", "CELAS2,90,10.,1,1,7,1\n"), "not on a line along its direction");
 }

@@ -1,7 +1,7 @@
-// load.torque: a moment about an axis, spread over a face as tractions around the axis that grow with the radius
-// (manual, eq. S8).
+// load.torque: a moment about an axis, spread over a face as tractions that grow with the radius (manual, eq. S8).
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "model/load.hpp"
@@ -9,6 +9,17 @@
 namespace dygita {
 
 namespace {
+
+// About which tractions turn for a moment along the axis alone, which on a face aslant of it is another direction.
+Vec3 turn_of(const Vec3& axis, const LoadedNodes& nodes, const Vec3& centre) {
+  Mat3 inertia = Mat3::Zero();
+  for (Eigen::Index i = 0; i < nodes.positions.cols(); ++i) {
+    const Vec3 arm = nodes.positions.col(i) - centre;
+    inertia += nodes.weights[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  }
+  const Eigen::LDLT<Mat3> factor(inertia);
+  return factor.rcond() > 1e-9 ? Vec3(factor.solve(axis).normalized()) : axis;
+}
 
 class Torque final : public Load {
  public:
@@ -24,12 +35,13 @@ class Torque final : public Load {
   std::vector<Effect> effects() const override {
     std::vector<Effect> all = nodal_forces([axis = axis_, through = through_](const LoadedNodes& nodes, size_t) {
       const Vec3 centre = through.value_or(nodes.positions * nodes.weights / nodes.weights.sum());
+      const Vec3 turn = through ? axis : turn_of(axis, nodes, centre);
       Points forces(3, nodes.positions.cols());
       double moment = 0.0;
       for (int i = 0; i < forces.cols(); ++i) {
-        const Vec3 around = axis.cross(nodes.positions.col(i) - centre);
-        forces.col(i) = nodes.weights[i] * around;
-        moment += nodes.weights[i] * around.squaredNorm();
+        const Vec3 arm = nodes.positions.col(i) - centre;
+        forces.col(i) = nodes.weights[i] * turn.cross(arm);
+        moment += nodes.weights[i] * turn.cross(arm).dot(axis.cross(arm));
       }
       return Points(forces / moment);
     });

@@ -1,4 +1,4 @@
-// support.spring: a spring and a damper on the mean motion of a place, or between those of two (manual, eq. J7).
+// support.spring: springs and dampers on the mean motion of a place, or between those of two (manual, eq. J7, J9).
 #include <algorithm>
 
 #include "base/error.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 class Spring final : public SupportKind {
  public:
-  Spring(const std::array<SpringAlong, 3>& along, LawPtr law) : along_(along), law_(std::move(law)) {}
+  Spring(const std::array<SpringAlong, 6>& along, LawPtr law) : along_(along), law_(std::move(law)) {}
 
   std::string word() const override { return "spring"; }
   bool takes_regions() const override { return true; }
@@ -21,26 +21,29 @@ class Spring final : public SupportKind {
   LawPtr law() const override { return law_; }
   Directions sums() const override {
     Directions axes;
-    for (size_t axis = 0; axis < 3; ++axis) axes.axes[axis] = along_[axis].stiffness > 0.0;
+    for (size_t axis = 0; axis < 3; ++axis)
+      axes.axes[axis] = along_[axis].stiffness > 0.0 || along_[3 + axis].stiffness > 0.0;
     return axes;
   }
   std::optional<SpringAlong> spring(int axis) const override { return along_[static_cast<size_t>(axis)]; }
 
  private:
-  std::array<SpringAlong, 3> along_;
+  std::array<SpringAlong, 6> along_;
   LawPtr law_;  // of its kind: what surfaces have is by their area
 };
 
 SupportKindPtr new_spring(const LawArguments& arguments) {
-  std::array<SpringAlong, 3> along;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
+  std::array<SpringAlong, 6> along;
+  for (size_t axis = 0; axis < 6; ++axis) {
+    const std::string name = (axis < 3 ? "" : "about_") + std::string(1, "xyz"[axis % 3]);
     along[axis] = {arguments.at(name), arguments.at(name + "_damping")};
     if (along[axis].damping > 0.0 && along[axis].stiffness == 0.0)
       throw InputError("'" + name + "_damping' goes with the stiffness '" + name + "', which is missing");
   }
-  const double stiffest = std::max({along[0].stiffness, along[1].stiffness, along[2].stiffness});
-  if (stiffest == 0.0) throw InputError("it holds nothing\n    give it a stiffness along x, y or z");
+  double stiffest = 0.0;
+  for (const SpringAlong& spring : along) stiffest = std::max(stiffest, spring.stiffness);
+  if (stiffest == 0.0)
+    throw InputError("it holds nothing\n    give it a stiffness along x, y or z, or about them (about_x ...)");
   return std::make_shared<const Spring>(along, law_of_spring({stiffest, 0.0}, 1.0));
 }
 
@@ -56,7 +59,12 @@ LawPtr law_of_spring(const SpringAlong& spring, double area) {
 }
 
 namespace supports {
-SupportEntry spring() { return {"spring", {"x", "y", "z", "x_damping", "y_damping", "z_damping"}, new_spring}; }
+SupportEntry spring() {
+  return {"spring",
+          {"x", "y", "z", "x_damping", "y_damping", "z_damping", "about_x", "about_y", "about_z", "about_x_damping",
+           "about_y_damping", "about_z_damping"},
+          new_spring};
+}
 }  // namespace supports
 
 }  // namespace dygita
