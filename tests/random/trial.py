@@ -95,7 +95,7 @@ class Trial:
         if not found:
             return fails("nothing to compare")
         if compare.lets_go(self.scene, switched_off.held_parts(self.scene), against):
-            return undecided("a part touches nothing at the end of a static step: no place of it is the right one")
+            return undecided("a part is loose at the end of a static step: no place of it is the right one")
         worst = max(found.values(), key=lambda d: d.size)
         if worst.size <= allowed:
             return holds(worst.size)
