@@ -34,13 +34,14 @@ void add_condition(LinearAssembly& assembly, int a, int b, const Vec3& direction
   assembly.conditions.push_back({{a, b}, {direction, Vec3(-direction)}});
 }
 
-// N and two tangents.
-Mat3 frame_of(const Vec3& normal) {
+// N and two tangents, the first near `tangent`, where that is not zero.
+Mat3 frame_of(const Vec3& normal, const Vec3& tangent = Vec3::Zero()) {
   int least = 0;
   normal.cwiseAbs().minCoeff(&least);
   Mat3 frame;
   frame.col(0) = normal;
-  frame.col(1) = normal.cross(Vec3::Unit(least)).normalized();
+  frame.col(1) = tangent.isZero() ? Vec3(normal.cross(Vec3::Unit(least)).normalized())
+                                  : Vec3((tangent - normal.dot(tangent) * normal).normalized());
   frame.col(2) = normal.cross(frame.col(1));
   return frame;
 }
@@ -56,7 +57,7 @@ void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, L
   const Surface& surface = (*instant.model.surfaces)[s];
   const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
   const Mat3 frame = surface.facing.is_of_sums() ? surface.facing.frames[static_cast<size_t>(i)]
-                                                 : frame_of(surface.facing.normals.col(i));
+                                                 : frame_of(surface.facing.normals.col(i), surface.facing.tangent);
   for (int d = 0; d < 3; ++d) {
     if (!surface.facing.acts_along(i, d)) continue;
     if (!tangent.holds[d] && tangent.damping[d] == 0.0 && tangent.stiffness[d] == 0.0) continue;
