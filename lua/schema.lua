@@ -531,6 +531,20 @@ words[4] = {
     },
   },
   {
+    "cyclic", makes = "interface",
+    doc = "The cut faces of one sector of a ring, under what is the same in all sectors (tightening, pressure, shocks along the axis): they move alike, the second turned "
+      .. "about the axis. One for each part that is cut. Meshes need not match.",
+    arguments = {
+      name_of "interface",
+      { "between", type = "between", kinds = { "face" }, exactly = 2, required = true,
+        doc = "the two cut faces; the first, whose mesh should be the coarser one, is side 1, on which resultants are counted" },
+      { "axis", in_frame = "direction", type = "vector", required = true, doc = "direction of the ring's axis; its length does not matter" },
+      { "through", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
+      { "n", type = "integer", range = { 2, 10000 }, required = true, doc = "sectors of the whole ring" },
+      frame "of `axis` and `through`", within(),
+    },
+  },
+  {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
     arguments = {
       name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
@@ -928,7 +942,7 @@ words[9] = {
           .. "or `tolerance` is reached" },
       { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
         doc = "assembled: all parts in one system, refactorised where contact changes much; a few tens of iterations for any connectivity. iterated: part "
-          .. "by part, as in dynamic steps. automatic: assembled where 10 parts or more hang together, in steps of at most 5 increments, "
+          .. "by part, as in dynamic steps. automatic: assembled where 10 parts or more hang together and in sectors of rings, in steps of at most 5 increments, "
           .. "and where an increment part by part has not converged in 400 iterations" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to verify the condensed ones" },
     },

@@ -11,6 +11,7 @@ void check_problem(const Problem& problem) {
   check::steps(problem);
   check::cells(problem);
   check::loads(problem);
+  check::cyclic(problem);
   check::outputs(problem);
   check::integration(problem);
   check::histories(problem);

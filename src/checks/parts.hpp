@@ -22,6 +22,9 @@ void cells(const Problem& problem);
 // Loads of every step: on what they can act, listed, in a step where they mean something, nothing prescribed twice.
 void loads(const Problem& problem);
 
+// Sectors of rings: one axis and one number of sectors for all cut faces, base motions and body forces alike around it.
+void cyclic(const Problem& problem);
+
 // Outputs: on what they can be, listed, spectra of a scalar acceleration.
 void outputs(const Problem& problem);
 

@@ -10,6 +10,7 @@
 #include "law/law.hpp"
 #include "law/rough_contact.hpp"
 #include "mesh/face_nodes.hpp"
+#include "model/cyclic.hpp"
 #include "model/extent.hpp"
 #include "model/found_faces.hpp"
 #include "model/point_faces.hpp"
@@ -171,6 +172,12 @@ void set_form(const Declaration& d, Interface& interface) {
                     1e6 * least, 1e6 * largest, 1e6 * sum / area));
 }
 
+void refuse_one_face(const Declaration& d, const Interface& interface) {
+  if (interface.side_1.part == interface.side_2.part && interface.side_1.group == interface.side_2.group)
+    throw InputError(d.origin, fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface.name,
+                                           interface.side_1.label()));
+}
+
 }  // namespace
 
 // The law of a word, from all numbers and truth values of the declaration.
@@ -183,10 +190,7 @@ Content build_interface(const Declaration& d) {
   } catch (const InputError& error) {
     throw InputError(d.origin, fmt::format("{} '{}': {}", d.path, interface->name, error.what()));
   }
-  if (interface->side_1.part == interface->side_2.part && interface->side_1.group == interface->side_2.group) {
-    throw InputError(d.origin, fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name,
-                                           interface->side_1.label()));
-  }
+  refuse_one_face(d, *interface);
   if (d.arguments.has("points"))
     interface->points = d.arguments.text("points") == "first" ? Carrier::first : Carrier::second;
   if (d.arguments.has("gap") && !d.arguments.is_number("gap")) {
@@ -205,6 +209,26 @@ Content build_interface(const Declaration& d) {
   const bool rubs = std::find(entry->arguments.begin(), entry->arguments.end(), "friction") != entry->arguments.end();
   if (rubs && of_law.try_emplace("friction", 0.0).second) DeckState::of(d.lua).without_friction.emplace_back(interface);
   interface->law = make_law(d.arguments.word(), of_law);
+  return InterfacePtr(interface);
+}
+
+// The cut faces of a sector, tied with one of them turned.
+Content build_cyclic(const Declaration& d) {
+  auto interface = new_named<Interface>(d);
+  if (d.arguments.has("within")) interface->within = d.arguments.number("within");
+  const std::vector<const Object*> sides = d.arguments.objects("between");
+  interface->side_1 = sides[0]->as<Face>();
+  interface->side_2 = sides[1]->as<Face>();
+  interface->points = Carrier::first;
+  refuse_one_face(d, *interface);
+  interface->law = make_law("bonded", {});
+  const auto vector = [&](const char* key) -> Vec3 { return Vec3(d.arguments.numbers(key).data()); };
+  try {
+    interface->cyclic = cyclic_symmetry(interface->side_1, interface->side_2, vector("through"),
+                                        vector("axis").normalized(), static_cast<int>(d.arguments.number("n")));
+  } catch (const InputError& error) {
+    throw InputError(d.origin, fmt::format("{} '{}': {}", d.path, interface->name, error.what()));
+  }
   return InterfacePtr(interface);
 }
 

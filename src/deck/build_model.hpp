@@ -38,6 +38,7 @@ void doubt_size(const Substructure& part);
 Content build_rigid(const Declaration& declaration);
 Content build_superelement(const Declaration& declaration);
 Content build_interface(const Declaration& declaration);  // by the law of its word
+Content build_cyclic(const Declaration& declaration);
 Content build_abaqus(const Declaration& declaration);
 Content build_nastran(const Declaration& declaration);
 Content build_unv(const Declaration& declaration);

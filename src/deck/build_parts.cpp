@@ -323,6 +323,7 @@ const Builders& part_builders() {
     };
     for (const MaterialEntry& kind : material_table()) all.emplace("material." + kind.word, build_material);
     for (const LawEntry& law : law_table()) all.emplace("interface." + law.word, build_interface);
+    all.emplace("interface.cyclic", build_cyclic);
     for (const SupportEntry& kind : support_table()) all.emplace("support." + kind.word, build_support);
     return all;
   }();

@@ -380,6 +380,9 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     hold(pin);
   }
   std::map<int, std::vector<std::string>> names;
+  // Of a sector they are those of its ring, and inertia opposes the loads along them.
+  const auto is_cyclic = [](const InterfacePtr& interface) { return interface->cyclic.has_value(); };
+  if (step.inertia_relief && std::any_of(problem.interfaces.begin(), problem.interfaces.end(), is_cyclic)) return;
   for (const auto& [part, all] : unconstrained) names[part] = names_of(all);
   warn_of_unconstrained(problem, step, names);
 }

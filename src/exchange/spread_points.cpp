@@ -141,7 +141,7 @@ Port SpreadPoints::port(const Surface& surface, int side, int i, const Mat3& fra
 // N, and a tangent along what a support holds of the nodes at the point, so that conditions are per direction there.
 Mat3 SpreadPoints::frame(const Surface& surface, int i) const {
   if (surface.facing.is_of_sums()) return surface.facing.frames[static_cast<size_t>(i)];
-  Vec3 n = surface.facing.normals.col(i), t = Vec3::Zero();
+  Vec3 n = surface.facing.normals.col(i), t = surface.facing.tangent;
   const SideTrace& trace = surface.facing.carrier == 1 ? surface.facing.side_1 : surface.facing.side_2;
   const Held* held = conditions_.at(surface.facing.carrier == 1 ? surface.part_1 : surface.part_2, trace.main_node(i));
   if (held && (held->n == 1 || held->n == 2)) {

@@ -96,6 +96,7 @@ Json interfaces_record(const Problem& problem) {
                  {"between", {interface->side_1.label(), interface->side_2.label()}}};
     add_law(*interface->law, json);
     if (interface->means) json["motion"] = "mean";
+    if (interface->cyclic) json["cyclic"] = interface->cyclic->n;
     list.push_back(json);
   }
   return list;

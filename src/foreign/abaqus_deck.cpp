@@ -69,21 +69,35 @@ class AbaqusDeck : public ImportedDeck {
     return "";
   }
 
+  std::string ring_of(const AbaqusRing& ring) const {
+    const auto vector = [](const Vec3& v, const char* unit) {
+      return fmt::format("{{ {}{}, {}{}, {}{} }}", lua_number(v[0]), unit, lua_number(v[1]), unit, lua_number(v[2]),
+                         unit);
+    };
+    return fmt::format(", axis = {}, through = {}, n = {}", vector(ring.to - ring.from, ""),
+                       vector(ring.from, "*length"), ring.n);
+  }
+
   void write_joint(const AbaqusJoint& joint) {
     const auto one = places(known_face(joint.one), true), other = places(known_face(joint.other), true);
     if (one.size() != 1 || other.size() != 1)
       return leave(fmt::format("{}: surfaces '{}' and '{}' are on {} and {} parts, not on one each", joint.where,
                                joint.one, joint.other, one.size(), other.size()));
     const std::string name = names_.of(joint.is_tie ? "tie" : "contact", joint.one + "_" + joint.other);
-    const std::string more =
-        joint.is_tie ? "" : fmt::format(", friction = {}, gap = \"geometry\"", lua_number(joint.friction));
+    const std::string more = joint.ring ? ring_of(*joint.ring)
+                             : joint.is_tie
+                                 ? ""
+                                 : fmt::format(", friction = {}, gap = \"geometry\"", lua_number(joint.friction));
     if (joint.is_adjusted && !joint.is_tie)
       leave(
           fmt::format("{}: ADJUST moves nodes that are near onto the other surface; where all of it is meant to touch, "
                       "closed = true takes the place of the gap",
                       joint.where));
     put("local {} = interface.{}{{ name = {}, between = {{ {}, {} }}{} }}  -- {}", name,
-        joint.is_tie ? "bonded" : "contact", lua_quoted(name), one[0], other[0], more, joint.where);
+        joint.ring     ? "cyclic"
+        : joint.is_tie ? "bonded"
+                       : "contact",
+        lua_quoted(name), one[0], other[0], more, joint.where);
     interfaces_.push_back(name);
     has_contact_ = has_contact_ || !joint.is_tie;
   }

@@ -90,6 +90,8 @@ const std::map<std::string, std::set<std::string>> options_of = {
     {"FREQUENCY", {"SOLVER", "STORAGE", "GLOBAL", "EIGENSOLVER"}},
     {"STEP", {"NLGEOM", "PERTURBATION", "INC", "INCF", "NAME", "UNSYMM"}},
     {"TIE", {"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "CYCLICSYMMETRY", "MULTISTAGE"}},
+    {"CYCLICSYMMETRYMODEL", {"N", "NGRAPH", "TIE", "ELSET"}},  // NGRAPH: of sectors drawn
+    {"SELECTCYCLICSYMMETRYMODES", {"NMIN", "NMAX"}},
     {"CONTACTPAIR", {"INTERACTION", "TYPE", "ADJUST", "SMALLSLIDING"}},
     {"SOLIDSECTION", {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"}},
     {"FRICTION", {}},
@@ -111,6 +113,10 @@ class AnalysisReader {
         analysis_.untranslated.emplace_back(error.what());
       }
     }
+    for (const AbaqusStep& step : analysis_.steps)
+      if (!ring_.empty() && step.procedure == "FREQUENCY" && !step.is_of_diameter_0)
+        analysis_.untranslated.push_back(
+            fmt::format("{}: modes of all nodal diameters: a deck has those of nodal diameter 0", step.where));
     constraints_.finish(analysis_.springs, analysis_.untranslated);
     analysis_.equations = std::move(constraints_.equations);
     return std::move(analysis_);
@@ -130,6 +136,8 @@ class AnalysisReader {
     if (word == "AMPLITUDE") return read_amplitude(card);
     if (word == "TIE" || word == "CONTACTPAIR") return read_joint(card);
     if (word == "STATIC" || word == "DYNAMIC" || word == "FREQUENCY") return read_procedure(card);
+    if (word == "CYCLICSYMMETRYMODEL") return;  // read with its tie
+    if (word == "SELECTCYCLICSYMMETRYMODES") return note_diameters(card);
     if (word == "INITIALCONDITIONS" && in_capitals(card.option("TYPE")) == "TEMPERATURE")
       return read_temperatures(placed, analysis_.temperatures);
     if (word == "TEMPERATURE") return read_step_temperatures(placed);
@@ -288,10 +296,52 @@ class AnalysisReader {
     add_actions(placed, FileAction::Kind::force, "cload", sayings);
   }
 
+  // Facets of a card with their loads: what is said twice of one adds up, as in ccx.
+  struct LoadedFacets {
+    struct Loaded {
+      ForeignFacet facet;
+      double value;
+      const DataLine* line;
+    };
+    std::vector<Loaded> all;
+    std::map<std::pair<int, std::array<int, 4>>, size_t> known;
+
+    void add(const ForeignFacet& facet, double value, const DataLine& line) {
+      const auto [at, is_new] = known.try_emplace({facet.cell, facet.corners}, all.size());
+      if (is_new)
+        all.push_back({facet, value, &line});
+      else
+        all[at->second].value += value;
+    }
+  };
+
+  FileAction pressure(const FileCard& card, double by, const DataLine& line) const {
+    return {FileAction::Kind::pressure,        "", {by, 0, 0}, {}, card.option("AMPLITUDE"),
+            file_.where(line.file, line.line), 0};
+  }
+
+  void add_loaded(const FileCard& card, const LoadedFacets& loaded) {
+    std::map<double, ForeignFace> by_value;
+    for (const auto& [facet, value, line] : loaded.all) {
+      auto [face, is_new] = by_value.try_emplace(value);
+      if (is_new) {
+        FileAction action = pressure(card, value, *line);
+        action.place =
+            line->file > 0 ? fmt::format("dload {}.{}", line->file, line->line) : fmt::format("dload {}", line->line);
+        for (const auto& [other, before] : by_value)  // several sums of one line
+          if (before.name == action.place) action.place += " and";
+        face->second = {action.place, {}, action.where};
+        actions().push_back(action);
+      }
+      face->second.facets.push_back(facet);
+    }
+    for (auto& [value, face] : by_value) model_.model().surfaces.push_back(std::move(face));
+  }
+
   void read_pressures(const PlacedCard& placed) {
     const FileCard& card = *placed.card;
     note_op(card, &AbaqusStep::drops_loads);
-    std::map<double, ForeignFace> by_value;
+    LoadedFacets loaded;
     for (const DataLine& line : card.data) {
       LineFields fields(file_, line);
       std::string_view what, label;
@@ -306,24 +356,16 @@ class AnalysisReader {
       const bool is_surface = card.keyword == "DSLOAD";
       if (is_surface ? kind != "P" : kind.size() != 2 || kind[0] != 'P' || !is_whole(kind.substr(1)))
         fields.fail(fmt::format("{}: a load '{}' has no word in a deck", card.written, kind));
-      FileAction action{FileAction::Kind::pressure,        "", {by, 0, 0}, {}, card.option("AMPLITUDE"),
-                        file_.where(line.file, line.line), 0};
       if (is_surface) {
+        FileAction action = pressure(card, by, line);
         action.place = std::string(what);
         actions().push_back(action);
         continue;
       }
-      auto [known, is_new] = by_value.try_emplace(by);
-      if (is_new) {
-        known->second = {fmt::format("dload {}", line.line), {}, action.where};
-        if (line.file > 0) known->second.name = fmt::format("dload {}.{}", line.file, line.line);
-        action.place = known->second.name;
-        actions().push_back(action);
-      }
-      const auto facets = model_.facets_of(model_.cells_of(*placed.scope, fields, what), label, line);
-      known->second.facets.insert(known->second.facets.end(), facets.begin(), facets.end());
+      for (const ForeignFacet& facet : model_.facets_of(model_.cells_of(*placed.scope, fields, what), label, line))
+        loaded.add(facet, by, line);
     }
-    for (auto& [value, facets] : by_value) model_.model().surfaces.push_back(std::move(facets));
+    add_loaded(card, loaded);
   }
 
   void add_on_all(const PlacedCard& placed, LineFields& fields, std::string_view what, double by,
@@ -385,7 +427,8 @@ class AnalysisReader {
     joint.is_tie = card.keyword == "TIE";
     joint.where = file_.where(card);
     joint.is_adjusted = card.has("ADJUST");
-    if (card.has("CYCLICSYMMETRY") || card.has("MULTISTAGE")) return leave(card, "cyclic symmetry");
+    if (card.has("MULTISTAGE")) return leave(card, "it joins sectors of different rings");
+    if (card.has("CYCLICSYMMETRY")) joint.ring = ring_of(card);
     if (!joint.is_tie) note_interaction(card.option("INTERACTION"), joint);
     for (const DataLine& line : card.data) {
       LineFields fields(file_, line);
@@ -393,6 +436,36 @@ class AnalysisReader {
       joint.other = fields.name("a surface");
       analysis_.joints.push_back(joint);
     }
+  }
+
+  // The *CYCLIC SYMMETRY MODEL of a tie: of its name, or of none.
+  AbaqusRing ring_of(const FileCard& tie) {
+    for (const FileCard& card : file_.cards()) {
+      if (card.keyword != "CYCLICSYMMETRYMODEL") continue;
+      if (card.has("TIE") && in_capitals(card.option("TIE")) != in_capitals(tie.option("NAME"))) continue;
+      if (card.data.empty()) file_.fail(card, "it has no axis");
+      const std::string sectors = card.option("N");  // a line of data has no text of its own
+      const DataLine of_n{sectors, card.file, card.line};
+      LineFields fields(file_, card.data[0]);
+      const auto point = [&] {
+        const double x = fields.real("a coordinate"), y = fields.real("a coordinate"), z = fields.real("a coordinate");
+        return Vec3(x, y, z);
+      };
+      const long n = LineFields(file_, of_n).whole("N = sectors of the ring");
+      const Vec3 from = point(), to = point();
+      if (n < 2 || from == to) file_.fail(card, "an axis through two points, and two sectors or more, are expected");
+      ring_ = file_.where(card);
+      return {n, from, to};
+    }
+    file_.fail(tie, "there is no *CYCLIC SYMMETRY MODEL of it");
+  }
+
+  // Modes of all sectors alike are those of nodal diameter 0.
+  void note_diameters(const FileCard& card) {
+    for (const char* end : {"NMIN", "NMAX"})
+      if (!card.has(end) || card.option(end) != "0")
+        return leave(card, "modes that differ from sector to sector: a deck has those of nodal diameter 0");
+    if (!analysis_.steps.empty()) analysis_.steps.back().is_of_diameter_0 = true;
   }
 
   // *FRICTION and *SURFACE BEHAVIOR below the *SURFACE INTERACTION of that name.
@@ -416,6 +489,7 @@ class AnalysisReader {
   AbaqusModel& model_;
   const CardFile& file_;
   AbaqusAnalysis analysis_;
+  std::string ring_;      // where a file of one sector says so
   std::set<int> turned_;  // nodes in axes of *TRANSFORM
   AbaqusConstraints constraints_;
 };

@@ -2,6 +2,7 @@
 // asks for that no deck says.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,16 +16,24 @@ struct AbaqusStep {
   std::string procedure, where;  // "STATIC"; empty: none that is known
   std::vector<double> numbers;   // of its line of data
   bool is_perturbation = false, is_explicit = false;
+  bool is_of_diameter_0 = false;                     // its modes, of a sector
   bool drops_supports = false, drops_loads = false;  // OP = NEW
   std::vector<FileAction> actions;
   std::map<int, double> temperatures;  // of nodes of the model, K
   std::string temperatures_where;
 };
 
+// Of a sector: two points of the axis, in the units of the file, and the sectors of the ring.
+struct AbaqusRing {
+  long n;
+  Vec3 from, to;
+};
+
 struct AbaqusJoint {
   bool is_tie = false, is_adjusted = false;
   std::string one, other;  // faces
   double friction = 0.0;
+  std::optional<AbaqusRing> ring;  // of a tie between the cut faces of a sector
   std::string where;
 };
 

@@ -20,6 +20,17 @@ bool lies_on(const Vec3& x, const Polygon& polygon, double tolerance) {
   return true;
 }
 
+// Is there a way from one to the other through what is joined?
+template <class Place>
+bool reaches(const Place& one, const Place& other, const std::vector<std::pair<Place, Place>>& joined) {
+  std::vector<Place> reached{one};
+  for (size_t k = 0; k < reached.size(); ++k)
+    for (const auto& [a, b] : joined)
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
+        if (from == reached[k] && std::find(reached.begin(), reached.end(), to) == reached.end()) reached.push_back(to);
+  return std::find(reached.begin(), reached.end(), other) != reached.end();
+}
+
 }  // namespace
 
 Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) : problem_(problem) {
@@ -27,11 +38,13 @@ Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& 
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
     add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
-    add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
+    if (!interface.cyclic) add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
   }
 }
 
 std::function<bool(const Vec3&)> Rings::closed_by(int i) const {
+  if (const auto& cyclic = problem_.interfaces[static_cast<size_t>(i)]->cyclic)
+    return [this, i, &cyclic = *cyclic](const Vec3& x) { return are_joined_around(i, cyclic, x); };
   const Entry& own = *std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.interface == i; });
   std::vector<const Entry*> near;
   for (const Entry& entry : entries_) {
@@ -64,18 +77,36 @@ bool Rings::are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x
     const Interface& other = *problem_.interfaces[static_cast<size_t>(entry->interface)];
     joined.emplace_back(other.side_1.part.get(), other.side_2.part.get());
   }
-  std::vector<const Substructure*> reached{own.side_1.part.get()};
-  for (size_t k = 0; k < reached.size(); ++k)
-    for (const auto& [a, b] : joined)
-      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
-        if (from == reached[k] && std::find(reached.begin(), reached.end(), to) == reached.end()) reached.push_back(to);
-  return std::find(reached.begin(), reached.end(), own.side_2.part.get()) != reached.end();
+  return reaches(own.side_1.part.get(), own.side_2.part.get(), joined);
+}
+
+// The same of the cut faces of a sector: parts at x, on the first of them, and where x came from, on the second.
+bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const {
+  using Place = std::pair<const Substructure*, int>;
+  const Vec3 opposite = cyclic.through + cyclic.turn.transpose() * (x - cyclic.through);
+  std::vector<std::pair<Place, Place>> joined;
+  for (const Entry& entry : entries_) {
+    if (entry.interface == i || !comes_before(entry.interface, i)) continue;
+    const Interface& other = *problem_.interfaces[static_cast<size_t>(entry.interface)];
+    const Substructure *a = other.side_1.part.get(), *b = other.side_2.part.get();
+    for (const int cut : {1, 2}) {
+      if (!has(entry, cut == 1 ? x : opposite)) continue;
+      if (!other.cyclic)
+        joined.push_back({{a, cut}, {b, cut}});
+      else if (cut == 1)
+        joined.push_back({{a, 1}, {b, 2}});
+    }
+  }
+  const Interface& own = *problem_.interfaces[static_cast<size_t>(i)];
+  return reaches<Place>({own.side_1.part.get(), 1}, {own.side_2.part.get(), 2}, joined);
 }
 
 bool Rings::comes_before(int i, int j) const {
   constexpr double alike = 1e-6;
   const auto is_tie = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->law->is_tie(); };
   if (is_tie(i) != is_tie(j)) return is_tie(j);
+  const auto is_cyclic = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->cyclic.has_value(); };
+  if (is_cyclic(i) != is_cyclic(j)) return is_cyclic(j);
   const double a = areas_[static_cast<size_t>(i)], b = areas_[static_cast<size_t>(j)];
   if (std::abs(a - b) > alike * std::max(a, b)) return a > b;
   const auto names = [&](int k) {

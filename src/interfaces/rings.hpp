@@ -26,6 +26,7 @@ class Rings {
   };
 
   void add(int i, const Face& face, const std::vector<Facet>& facets);
+  bool are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const;
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
   // What is no tie, and of ties the larger; of those as large the first by the names of what it joins: in whatever
   // order they are declared, and wherever the assembly stands.

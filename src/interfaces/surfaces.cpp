@@ -90,8 +90,8 @@ constexpr double next_to_nothing = 0.01;  // of a facet: what a face reaches ove
 // Of a facet on one side of an interface between meshes that do not match, the share that the other side covers.
 double covered_share(const Surface& surface, int part, const Facet& facet) {
   const bool is_first = surface.part_1 == part;
-  PlacedFace own = placed(is_first ? surface.interface->side_1 : surface.interface->side_2),
-             other = placed(is_first ? surface.interface->side_2 : surface.interface->side_1);
+  auto [own, other] = placed_sides(*surface.interface);
+  if (!is_first) std::swap(own, other);
   own.facets = {facet};
   other.facets = is_first ? surface.facing.facets_2 : surface.facing.facets_1;
   return covered(own, other);
@@ -108,7 +108,7 @@ bool have_common_area(const Surface& a, const Surface& b) {
     return both;
   };
   const bool is_swapped = a.part_1 != b.part_1;
-  PlacedFace own = placed(a.interface->side_1), other = placed(a.interface->side_2);
+  auto [own, other] = placed_sides(*a.interface);
   own.facets = shared(a.facing.facets_1, is_swapped ? b.facing.facets_2 : b.facing.facets_1);
   other.facets = shared(a.facing.facets_2, is_swapped ? b.facing.facets_1 : b.facing.facets_2);
   return !own.facets.empty() && !other.facets.empty() && covered(own, other) > next_to_nothing;
@@ -155,6 +155,22 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
   }
 }
 
+// The second side moves as the first one, turned (manual, eq. J9). A node on the axis is on both sides, and moves along
+// the axis as it likes. Where faces match, points that `is_taken_away` says of are left to the other ties there.
+Facing turned(const CyclicSymmetry& cyclic, const Facing& met, const std::function<bool(const Vec3&)>& is_taken_away) {
+  Facing facing = met;
+  if (met.matches()) facing = without(met, is_taken_away);
+  facing.carrier = 1;
+  facing.tangent = cyclic.along;
+  facing.side_2.turn_by(cyclic.turn);
+  for (int i = 0; i < facing.n_points(); ++i) {
+    const bool is_on_axis = facing.side_1.is_of_one_node(i) && facing.side_2.is_of_one_node(i) &&
+                            cyclic.distance(facing.places.col(i)) < 1e-6 * std::sqrt(facing.areas[i]);
+    facing.directions.push_back({true, !is_on_axis, true});
+  }
+  return facing;
+}
+
 // The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others:
 // tied once too often, it would not converge well (manual, eq. J5).
 Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
@@ -167,8 +183,9 @@ Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<
       throw InputError(interface.origin, "interface '" + interface.name + "': " + error.what());
     }
   }
-  Facing facing =
-      meetings[i]->facing(interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>());
+  const auto is_taken_away = interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>();
+  Facing facing = meetings[i]->facing(is_taken_away);
+  if (interface.cyclic) return turned(*interface.cyclic, facing, is_taken_away);
   if (interface.has_gap_of_geometry) take_gaps_of_places(problem, interface, facing);
   return facing;
 }

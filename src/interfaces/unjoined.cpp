@@ -265,7 +265,8 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     if (!pair.neighbours.intrusion || pair.neighbours.intrusion->depth <= pair.offset) return;
     for (const Surface& surface : surfaces)
       if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j)
-        pair.offset = std::max(pair.offset, bend_of(*surface.interface));
+        if (!surface.interface || !surface.interface->cyclic)
+          pair.offset = std::max(pair.offset, bend_of(*surface.interface));
   });
   std::erase_if(pairs, [](const Unjoined& pair) {
     const Neighbours& found = pair.neighbours;
@@ -349,8 +350,10 @@ void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces
   for (const Surface& surface : surfaces) {
     if (!surface.interface) continue;
     if (!surface.facing.is_of_sums()) {
-      doubt_shift(problem, surface);
-      doubt_points(problem, surface);
+      if (!surface.interface->cyclic) {  // of which others may take points away, and whose faces lie apart
+        doubt_shift(problem, surface);
+        doubt_points(problem, surface);
+      }
       doubt_distance(problem, surface);
     }
     doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets_1);

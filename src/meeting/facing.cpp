@@ -233,6 +233,30 @@ Facing joined(const std::vector<Facing>& parts) {
   return all;
 }
 
+Facing without(const Facing& facing, const std::function<bool(const Vec3&)>& is_taken_away) {
+  std::vector<int> kept, number(static_cast<size_t>(facing.n_points()), -1), nodes_1, nodes_2;
+  for (int i = 0; i < facing.n_points(); ++i) {
+    if (is_taken_away && is_taken_away(facing.places.col(i))) continue;
+    number[static_cast<size_t>(i)] = static_cast<int>(kept.size());
+    kept.push_back(i);
+    nodes_1.push_back(facing.side_1.main_node(i));
+    nodes_2.push_back(facing.side_2.main_node(i));
+  }
+  Facing rest = facing;
+  rest.side_1 = SideTrace(nodes_1);
+  rest.side_2 = SideTrace(nodes_2);
+  rest.places = facing.places(Eigen::all, kept);
+  rest.normals = facing.normals(Eigen::all, kept);
+  rest.areas = facing.areas(kept);
+  rest.gaps = facing.gaps(kept);
+  std::erase_if(rest.facets, [&](Facet& facet) {
+    bool is_whole = true;
+    for (int& node : facet.nodes()) is_whole = (node = number[static_cast<size_t>(node)]) >= 0 && is_whole;
+    return !is_whole;
+  });
+  return rest;
+}
+
 void refuse_apart(const PlacedFace& side_1, const PlacedFace& side_2) {
   const Points x_1 = FaceByNode(side_1).x, x_2 = FaceByNode(side_2).x;
   const Vec3 low_1 = x_1.rowwise().minCoeff(), high_1 = x_1.rowwise().maxCoeff();

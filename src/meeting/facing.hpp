@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "meeting/side_trace.hpp"
@@ -35,6 +36,7 @@ struct Facing {
   // Else empty: N and two tangents, and all of them.
   std::vector<Mat3> frames;
   std::vector<std::array<bool, 3>> directions;
+  Vec3 tangent = Vec3::Zero();  // the first of all points' frames, but for what supports ask for; zero: any
 
   bool is_of_sums() const { return !frames.empty(); }
   bool acts_along(int i, int d) const { return directions.empty() || directions[static_cast<size_t>(i)][d]; }
@@ -52,6 +54,9 @@ Facing facing_of(const PlacedFace& face);
 
 // A face's smooth surfaces, between sharp edges.
 std::vector<PlacedFace> smooth_parts(const PlacedFace& face);
+
+// Those of its points of which `is_taken_away` does not say that they go; empty: all.
+Facing without(const Facing& facing, const std::function<bool(const Vec3&)>& is_taken_away);
 
 // All points of several, none of them merged: at an edge of two parts each has its own. At least one.
 Facing joined(const std::vector<Facing>& parts);

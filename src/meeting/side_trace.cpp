@@ -36,9 +36,8 @@ int SideTrace::main_node(int i) const {
 Mat3 SideTrace::block(int i, int k) const {
   const Share& own = share(i, k);
   Mat3 block = own.weight * Mat3::Identity();
-  if (turn_of_[i] < 0) return block;
-  for (int c = 0; c < 3; ++c) block.col(c) += turns_[turn_of_[i]] * own.arm.cross(Vec3::Unit(c));
-  return block;
+  for (int c = 0; c < 3 && turn_of_[i] >= 0; ++c) block.col(c) += turns_[turn_of_[i]] * own.arm.cross(Vec3::Unit(c));
+  return rotation_ ? Mat3(*rotation_ * block) : block;
 }
 
 std::pair<SideTrace, std::vector<int>> SideTrace::on_its_nodes() const {
@@ -53,7 +52,8 @@ std::pair<SideTrace, std::vector<int>> SideTrace::on_its_nodes() const {
 }
 
 // The transpose of [d]x is - [d]x.
-void SideTrace::spread(int i, const Vec3& force, Points& nodal) const {
+void SideTrace::spread(int i, const Vec3& on_point, Points& nodal) const {
+  const Vec3 force = rotation_ ? Vec3(rotation_->transpose() * on_point) : on_point;
   const Vec3 turned = turn_of_[i] < 0 ? Vec3(Vec3::Zero()) : Vec3(turns_[turn_of_[i]].transpose() * force);
   for (int k = 0; k < n_shares(i); ++k) {
     const Share& own = share(i, k);

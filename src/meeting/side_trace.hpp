@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,8 +10,9 @@
 
 namespace dygita {
 
-// The motion of point i is the sum over nodes l of (t_l 1 + turn_i [d_l]x) V_l: that of one node where faces match,
-// else a mean over nodes near it, with what makes it exact in rigid motions of nodes that are not quite there.
+// The motion of point i is the sum over nodes l of R (t_l 1 + turn_i [d_l]x) V_l: that of one node where faces match,
+// else a mean over nodes near it, with what makes it exact in rigid motions of nodes that are not quite there. R turns
+// all of a side whose points stand elsewhere around an axis (manual, eq. J9); else it is 1.
 class SideTrace {
  public:
   // A node's share: t, and the arm d (m), zero where the nodes' mean lies at the point.
@@ -27,8 +29,11 @@ class SideTrace {
   // A further point; turn: 3 x 3 (1/m), zero for no arms.
   void add(const std::vector<Share>& shares, const Mat3& turn = Mat3::Zero());
 
-  // All points of another.
+  // All points of another, which are turned alike.
   void append(const SideTrace& other);
+
+  // Turns the motions of all points.
+  void turn_by(const Mat3& rotation) { rotation_ = rotation; }
 
   int n_points() const { return static_cast<int>(turn_of_.size()); }
   int n_shares(int i) const { return first_[i + 1] - first_[i]; }
@@ -51,6 +56,15 @@ class SideTrace {
   // The same of a field that of_node(node) answers for.
   template <class OfNode>
   Vec3 at_nodes(int i, OfNode&& of_node) const {
+    const Vec3 unturned = at_unturned(i, of_node);
+    return rotation_ ? Vec3(*rotation_ * unturned) : unturned;
+  }
+  // Adds a force on a point to those on the nodes: power is the same for any motion.
+  void spread(int i, const Vec3& force, Points& nodal) const;
+
+ private:
+  template <class OfNode>
+  Vec3 at_unturned(int i, OfNode&& of_node) const {
     if (is_of_one_node(i) && share(i, 0).weight == 1.0 && turn_of_[i] < 0) return of_node(share(i, 0).node);
     Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
     for (int k = 0; k < n_shares(i); ++k) {
@@ -60,14 +74,12 @@ class SideTrace {
     }
     return turn_of_[i] < 0 ? sum : Vec3(sum + turns_[turn_of_[i]] * moment);
   }
-  // Adds a force on a point to those on the nodes: power is the same for any motion.
-  void spread(int i, const Vec3& force, Points& nodal) const;
 
- private:
   std::vector<int> first_{0};
   std::vector<Share> shares_;
   std::vector<int> turn_of_;  // of each point, index in turns_; -1: none
   std::vector<Mat3> turns_;
+  std::optional<Mat3> rotation_;
 };
 
 }  // namespace dygita

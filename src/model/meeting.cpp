@@ -9,6 +9,13 @@ namespace dygita {
 
 PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets(), face.part->place, face.label()}; }
 
+std::array<PlacedFace, 2> placed_sides(const Interface& interface) {
+  const Face& other = interface.side_2;
+  if (!interface.cyclic) return {placed(interface.side_1), placed(other)};
+  return {placed(interface.side_1),
+          PlacedFace{interface.cyclic->turned.get(), other.facets(), Vec3::Zero(), other.label() + " (turned)"}};
+}
+
 double default_within(const Problem& problem) { return 1e-4 * extent_of(problem.substructures).size().norm(); }
 
 Meeting meeting_of(const Interface& interface, double within) {
@@ -20,7 +27,8 @@ Meeting meeting_of(const Interface& interface, double within) {
                                rank(interface.side_2) < rank(interface.side_1), !interface.law->is_tie(),
                                !interface.law->is_tie()};
   try {
-    return {placed(interface.side_1), placed(interface.side_2), options};
+    const auto [side_1, side_2] = placed_sides(interface);
+    return {side_1, side_2, options};
   } catch (const InputError& error) {
     throw InputError(interface.origin, "interface '" + interface.name + "': " + error.what());
   }

@@ -8,6 +8,9 @@ namespace dygita {
 
 PlacedFace placed(const Face& face);
 
+// Both sides where they meet: side 2 of a cyclic interface is turned onto side 1.
+std::array<PlacedFace, 2> placed_sides(const Interface& interface);
+
 // How far apart (m) faces may be that touch, beside what facets of round ones are off: a ten thousandth of the
 // assembly's diagonal.
 double default_within(const Problem& problem);

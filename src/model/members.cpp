@@ -55,7 +55,9 @@ bool are_same(const std::vector<std::variant<Places...>>& a, const std::vector<s
 std::string difference(const Interface& a, const Interface& b) {
   if (a.law->word() != b.law->word()) return "the kind";
   if (!are_same(a.side_1, b.side_1) || !are_same(a.side_2, b.side_2)) return "'between'";
-  if (a.points != b.points || a.within != b.within || a.means != b.means) return "how its faces meet";
+  if (a.points != b.points || a.within != b.within || a.means != b.means ||
+      a.cyclic.has_value() != b.cyclic.has_value() || (a.cyclic && a.cyclic->turn != b.cyclic->turn))
+    return "how its faces meet";
   return a.has_gap_of_geometry != b.has_gap_of_geometry ? "the kind of gap" : "";
 }
 

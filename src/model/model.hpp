@@ -1,6 +1,7 @@
 // What a deck declared: plain, checked, immutable. Objects refer to each other by shared pointers to const.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <memory>
 #include <optional>
@@ -60,6 +61,16 @@ struct Region {
   std::string label() const { return part->name + " (" + std::to_string(nodes.size()) + " nodes)"; }
 };
 
+// A sector's cut faces, of which the second one, turned about the axis, is the first one.
+struct CyclicSymmetry {
+  Vec3 through, along;  // a point of the axis (m), its direction
+  int n;                // sectors of the ring
+  Mat3 turn;
+  MeshPtr turned;  // the mesh of side 2 in the assembly, turned
+
+  double distance(const Vec3& x) const { return along.cross(x - through).norm(); }  // m, from the axis
+};
+
 struct Interface : Named {
   Face side_1, side_2;
   LawPtr law;  // its own
@@ -71,6 +82,7 @@ struct Interface : Named {
   // m, added to the gap of the places, by the nodes of either side; none: nothing is.
   std::array<std::unordered_map<int, double>, 2> form;
   std::optional<MeanBy> means;  // joins the mean motions of its faces, which deform freely; none: point by point
+  std::optional<CyclicSymmetry> cyclic;  // joins the cut faces of one sector of a ring
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 

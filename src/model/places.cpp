@@ -85,7 +85,7 @@ bool coincide(const FaceOrRegion& a, const FaceOrRegion& b) {
 }
 
 std::string describe(const Interface& interface) {
-  return "interface." + interface.law->word() + " '" + interface.name + "'";
+  return "interface." + (interface.cyclic ? "cyclic" : interface.law->word()) + " '" + interface.name + "'";
 }
 
 std::string describe(const Support& support) { return "support." + support.kind->word() + " '" + support.name + "'"; }

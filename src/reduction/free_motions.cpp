@@ -140,6 +140,28 @@ Mat WholeInertia::sorted(const Mat& of_vectors) const {
   return basis.leftCols(n);
 }
 
+namespace {
+
+const CyclicSymmetry* cyclic_symmetry_of(const Problem& problem) {
+  for (const InterfacePtr& interface : problem.interfaces)
+    if (interface->cyclic) return &*interface->cyclic;
+  return nullptr;
+}
+
+// A sector's share of what its ring is: about a centre on the axis, and without motions across it, which differ from
+// sector to sector.
+void take_share_of_ring(const CyclicSymmetry& ring, const Mat3& inertia, WholeInertia& whole) {
+  Mat3 mean = Mat3::Zero(), turn = Mat3::Identity();
+  for (int i = 0; i < ring.n; ++i, turn = (ring.turn * turn).eval())
+    mean += turn * inertia * turn.transpose() / static_cast<double>(ring.n);
+  whole.moments = mean.diagonal();
+  const Mat3 along = ring.along * ring.along.transpose();
+  for (const int first : {0, 3})
+    whole.momenta.middleCols(first, 3) = (whole.momenta.middleCols(first, 3) * along).eval();
+}
+
+}  // namespace
+
 WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& problem) {
   using SpatialInertia = Eigen::Matrix<double, 6, 6>;
   const auto& parts = problem.substructures;
@@ -157,12 +179,16 @@ WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& proble
   }
   WholeInertia whole;
   whole.mass = inertia(0, 0);
-  const Vec3 arm = Vec3(inertia(1, 5), inertia(2, 3), inertia(0, 4)) / whole.mass;
+  Vec3 arm = Vec3(inertia(1, 5), inertia(2, 3), inertia(0, 4)) / whole.mass;
+  const CyclicSymmetry* ring = cyclic_symmetry_of(problem);
+  if (ring) arm = ring->through + ring->along.dot(near + arm - ring->through) * ring->along - near;
   whole.centre = near + arm;
   SpatialInertia shift = SpatialInertia::Identity();
   for (int d = 0; d < 3; ++d) shift.block<3, 1>(0, 3 + d) = -Vec3::Unit(d).cross(arm);
-  whole.moments = (shift.transpose() * inertia * shift).diagonal().tail<3>();
+  const Mat3 about = (shift.transpose() * inertia * shift).bottomRightCorner<3, 3>();
+  whole.moments = about.diagonal();
   whole.momenta = assembly.map.transpose() * (of_nodes * shift);
+  if (ring) take_share_of_ring(*ring, about, whole);
   return whole;
 }
 

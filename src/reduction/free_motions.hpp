@@ -6,7 +6,8 @@
 
 namespace dygita {
 
-// What an assembly is to its translations along x, y, z and its rotations about the axes through its centre of mass.
+// What an assembly is to its translations along x, y, z and its rotations about the axes through its centre of mass; of
+// one sector of a ring its share of what the ring is.
 struct WholeInertia {
   double mass = 0.0;                                   // kg
   Vec3 centre = Vec3::Zero(), moments = Vec3::Zero();  // m; kg m^2

@@ -46,7 +46,7 @@ void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, L
   const Surface& surface = (*instant.model.surfaces)[s];
   const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
   const Mat3 frame = surface.facing.is_of_sums() ? surface.facing.frames[static_cast<size_t>(i)]
-                                                 : frame_along(surface.facing.normals.col(i));
+                                                 : frame_along(surface.facing.normals.col(i), surface.facing.tangent);
   for (int d = 0; d < 3; ++d) {
     if (!surface.facing.acts_along(i, d)) continue;
     if (!tangent.holds[d] && tangent.damping[d] == 0.0 && tangent.stiffness[d] == 0.0) continue;

@@ -196,7 +196,11 @@ std::string surface_line(const Surface& surface) {
                                       surface.interface->side_1.label(), surface.interface->side_2.label());
   std::string line = fmt::format("  {} '{}': {} points, {:.4g} mm^2", surface.interface ? "interface" : "wall",
                                  surface.name(), surface.n_points(), facing.areas.sum() * 1e6);
-  if (surface.interface && !facing.matches()) {
+  if (surface.interface && surface.interface->cyclic)
+    line += fmt::format("; {} turned by {:.4g} degrees", surface.interface->side_2.label(),
+                        360.0 / surface.interface->cyclic->n);
+  const bool is_of_like_meshes = surface.interface && surface.interface->cyclic && facing.size_ratio == 1.0;
+  if (surface.interface && !facing.matches() && !is_of_like_meshes) {
     const Face& carrier = facing.carrier == 1 ? surface.interface->side_1 : surface.interface->side_2;
     const double ratio = std::max(facing.size_ratio, 1.0 / facing.size_ratio);
     line += "; meshes do not match: points on " + carrier.label() +

@@ -258,7 +258,7 @@ size_t most_together(const Problem& problem, const Step& step, const std::vector
 
 // Assembled increments cost some factors each, iterated steps dense operators at their start and next to nothing an
 // increment, unless many parts are joined by contact alone. Forces and ties of the former agree to twelve
-// digits at best.
+// digits at best. Part by part, what goes around a ring comes back to a sector of it again and again.
 bool is_assembled(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
   constexpr int few_increments = 5;
   constexpr size_t many_parts = 10;
@@ -266,7 +266,9 @@ bool is_assembled(const Problem& problem, const Step& step, const std::vector<Su
   if (!step.is_static || asked.plain) return false;
   if (asked.static_steps != StaticSteps::automatic) return asked.static_steps == StaticSteps::assembled;
   return step.increments <= few_increments && fits_in_one(problem) &&
-         most_together(problem, step, surfaces) >= many_parts;
+         (most_together(problem, step, surfaces) >= many_parts ||
+          std::any_of(problem.interfaces.begin(), problem.interfaces.end(),
+                      [](const InterfacePtr& interface) { return interface->cyclic.has_value(); }));
 }
 
 // Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.

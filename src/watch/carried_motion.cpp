@@ -29,6 +29,8 @@ CarriedMotion::CarriedMotion(const Instant& start) {
     if (surface.wall && surface.is_on_ground && !surface.facing.is_of_sums() &&
         takes_part(*model.problem, *model.step, surface))
       held += surface.facing.normals * surface.facing.normals.transpose();
+  for (const InterfacePtr& interface : model.problem->interfaces)  // what other sectors push adds up along the axis
+    if (interface->cyclic) held += Mat3::Identity() - interface->cyclic->along * interface->cyclic->along.transpose();
   for (const SupportPtr& support : supports_of(*model.problem, *model.step))
     if (support->kind->absorbs()) held += Mat3::Identity();
   const PrincipalAxes axes = principal_axes(held);

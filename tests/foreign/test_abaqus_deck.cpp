@@ -108,6 +108,32 @@ TEST(AbaqusDeck, has_springs_on_the_means_that_their_ends_are) {
   expect_in(imported(ends + "*EQUATION\n3\n902,1,1.,7,1,-.5,10,1,-.4\n" + spring + step), "NOT TRANSLATED");
 }
 
+// ccx adds up what a card says twice of one facet.
+TEST(AbaqusDeck, adds_what_is_said_twice_of_a_facet) {
+  const std::string deck =
+      imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*DLOAD\n5, P2, 3.\n5, P2, 3.\n6, P2, 3.\nE, P2, 1.\n*END STEP\n");
+  for (const char* sum : {"history = 7*pressure }", "history = 4*pressure }", "history = 1*pressure }"})
+    expect_in(deck, sum);
+}
+
+TEST(AbaqusDeck, has_a_sector_of_a_ring) {
+  const std::string tie = "*TIE, NAME=T, CYCLIC SYMMETRY\nTOP, BOTTOM\n", low = "*SURFACE, NAME=BOTTOM\nE, S1\n",
+                    step = "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*END STEP\n",
+                    ring = "*CYCLIC SYMMETRY MODEL, N=12, NGRAPH=3, TIE=T\n1., 2., 0., 1., 2., 5.\n";
+  const std::string deck = imported(low + tie + ring + step);
+  expect_in(deck,
+            "interface.cyclic{ name = \"tie_top_bottom\", between = { part_e:face \"TOP\", part_e:face \"BOTTOM\" }, "
+            "axis = { 0, 0, 5 }, through = { 1*length, 2*length, 0*length }, n = 12 }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(imported(low + tie + step), "there is no *CYCLIC SYMMETRY MODEL of it");
+  const auto modes = [&](const std::string& select) {
+    return imported(low + tie + ring + "*STEP\n*FREQUENCY\n5\n" + select + "*END STEP\n");
+  };
+  EXPECT_EQ(modes("*SELECT CYCLIC SYMMETRY MODES, NMIN=0, NMAX=0\n").find("NOT TRANSLATED"), std::string::npos);
+  expect_in(modes("*SELECT CYCLIC SYMMETRY MODES, NMIN=0, NMAX=1\n"), "a deck has those of nodal diameter 0");
+  expect_in(modes(""), "modes of all nodal diameters");
+}
+
 TEST(AbaqusDeck, holds_nodes_where_they_are) {
   const std::string deck = imported(
       "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 3, -2.5\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY, FIXED\n7, 1, "

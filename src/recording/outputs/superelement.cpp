@@ -155,6 +155,11 @@ class SuperelementOutput final : public Output {
             problem, origin,
             who + ": superelement '" + part->name + "' has faces that move as a whole, which cannot be condensed again",
             "condense it with motion = \"nodes\"");
+    for (const InterfacePtr& interface : problem.interfaces)
+      if (interface->cyclic)
+        check::fail(problem, origin,
+                    who + ": " + describe(*interface) + " makes a sector of a ring, which is not condensed",
+                    "condense the parts of the sector without it, and join the ring of superelements");
     for (const SubstructurePtr& part : problem.substructures)
       if (!part->material.damping.branches.empty())
         check::fail(problem, origin,

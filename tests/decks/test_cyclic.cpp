@@ -1,0 +1,119 @@
+// One sector of a ring (interface.cyclic) against the whole ring.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "decks/engine.hpp"
+
+namespace dygita::test::cyclic_tests {
+namespace {
+
+DeckRun ring(Settings settings, const std::string& whole, const std::string& solver = "") {
+  settings.emplace_back("whole", whole);
+  return run_file(deck("verification/ring_sector.lua"), settings, 0, solver).at(0);
+}
+
+double apart(const DeckRun& a, const DeckRun& b, const std::string& name, const std::vector<std::string>& columns) {
+  double size = 0.0, most = 0.0;
+  for (const std::string& column : columns) {
+    const std::vector<double>&of_a = a.column(name, column), &of_b = b.column(name, column);
+    EXPECT_EQ(of_a.size(), of_b.size());
+    size = std::max(size, largest(of_a));
+    for (size_t i = 0; i < of_a.size(); ++i) most = std::max(most, std::abs(of_a[i] - of_b[i]));
+  }
+  return most / size;
+}
+
+const std::vector<std::string> axes = {"x", "y", "z"};
+
+// Base and skin meet the cuts in lines where one of the ties would be one too many.
+TEST(Cyclic, sector_rests_as_the_ring_does) {
+  for (const Settings& settings : {Settings{{"joint", "1"}, {"shock", "0"}}, Settings{{"shock", "0"}},
+                                   Settings{{"shock", "0"}, {"order", "2"}}, Settings{{"shock", "0"}, {"free", "1"}}}) {
+    const DeckRun sector = ring(settings, "0"), whole = ring(settings, "1");
+    for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(whole, sector, name, axes), 1e-6) << settings[1].first;
+  }
+}
+
+TEST(Cyclic, sector_is_shaken_as_the_ring_is) {
+  for (const Settings& settings : {Settings{{"joint", "1"}}, Settings{}}) {
+    const DeckRun sector = ring(settings, "0"), whole = ring(settings, "1");
+    for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(whole, sector, name, axes), 1e-5);
+    EXPECT_LT(apart(whole, sector, "spectrum z", {"maximax"}), 1e-5);
+  }
+}
+
+TEST(Cyclic, unlike_meshes_of_the_cuts_are_those_of_the_ring) {
+  const Settings settings = {{"shock", "0"}, {"fine", "3"}};
+  const DeckRun sector = ring(settings, "0"), whole = ring(settings, "1");
+  for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(whole, sector, name, axes), 1e-6);
+}
+
+TEST(Cyclic, other_solvers_have_it_too) {
+  const DeckRun latin = ring({}, "0"), monolithic = ring({}, "0", "monolithic"), whole = ring({}, "1", "monolithic");
+  for (const char* name : {"tip", "wall"}) {
+    EXPECT_LT(apart(whole, monolithic, name, axes), 1e-6);
+    EXPECT_LT(apart(monolithic, latin, name, axes), 5e-3);  // which is explicit there, with another error in time
+  }
+  const DeckRun classic = ring({{"joint", "1"}}, "0", "explicit"), of_ring = ring({{"joint", "1"}}, "1", "explicit");
+  for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(of_ring, classic, name, axes), 0.02);  // penalty springs
+}
+
+// What the cuts carry across the hoop: 5 MPa in the bore of 30 mm over 10 mm of height, less what goes elsewhere.
+TEST(Cyclic, forces_are_those_on_the_first_face) {
+  const Settings settings = {{"shock", "0"}, {"free", "1"}, {"joint", "1"}};
+  const DeckRun sector = ring(settings, "0"), whole = ring(settings, "1");
+  EXPECT_LT(apart(whole, sector, "cut", {"x", "y"}), 1e-6);
+  const double x = sector.column("cut", "x").back(), y = sector.column("cut", "y").back();
+  EXPECT_GT(std::hypot(x, y), 500.0);
+}
+
+// Modes that all sectors have alike are modes of the ring, and the sector has an eighth of their masses.
+TEST(Cyclic, modes_are_those_of_the_ring) {
+  for (const char* free : {"0", "1"}) {
+    const Settings settings = {{"shock", "0"}, {"free", free}, {"joint", "1"}};
+    Settings of_ring = settings, of_sector = settings;
+    of_sector.emplace_back("modes", "4");
+    of_ring.emplace_back("modes", "40");
+    const DeckRun sector = ring(of_sector, "0"), whole = ring(of_ring, "1");
+    const std::vector<double>&own = sector.column("modes", "frequency"), &all = whole.column("modes", "frequency");
+    for (size_t i = 0; i < own.size(); ++i) {
+      const double mass = sector.column("modes", "effective_z")[i];
+      double nearest = 1e9, of_all = 0.0;
+      for (size_t k = 0; k < all.size(); ++k) {
+        if (std::abs(all[k] - own[i]) > 1e-6 * own[i] + 1e-6) continue;
+        nearest = all[k];
+        of_all += whole.column("modes", "effective_z")[k];
+      }
+      EXPECT_NEAR(nearest, own[i], 1e-6 * own[i] + 1e-6) << free;
+      EXPECT_NEAR(of_all, 8 * mass, 1e-6 * 0.0903) << free;
+      for (const char* across : {"effective_x", "effective_y"}) EXPECT_EQ(sector.column("modes", across)[i], 0.0);
+    }
+  }
+}
+
+TEST(Cyclic, faces_that_do_not_meet_are_refused) {
+  try {
+    run_text(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function wedge(name, low)
+  return substructure{ name = name, material = steel, mesh = mesh.gmsh{ file = ")" +
+             std::string(DYGITA_SOURCE_DIR) + R"(/meshes/wedge.geo",
+    set = { low = low, high = low + 0.01, n_radial = 1, n_around = 2, n_high = 1 } }:volume "wedge" }
+end
+local low, high = wedge("low", 0), wedge("high", 0.02)
+local cut = interface.cyclic{ name = "cut", between = { low:face "left", high:face "right" }, axis = { 0, 0, 1 }, n = 8 }
+local base = support.fixed{ name = "base", on = { low:face "bottom", high:face "bottom" } }
+problem{ name = "sector", substructures = { low, high }, interfaces = { cut }, supports = { base },
+         steps = { step.static{ name = "rest", loads = { load.gravity{ z = -9.81 } } } } }:run{}
+)");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'low.left' and 'high.right (turned)' do not meet"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace dygita::test::cyclic_tests
