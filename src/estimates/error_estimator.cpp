@@ -15,7 +15,8 @@ namespace dygita {
 
 namespace {
 
-constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs about a time step
+// Of a dynamic step: of the stress error, which costs about a time step each, and of strain energies alone.
+constexpr int n_samples = 5, n_strains = 25;
 
 // Masses (kg) and directions of the unknowns of a piece, as velocities have them.
 Vec masses_of(const Instant& instant, int piece) {
@@ -32,6 +33,17 @@ Vec velocity_of(const Instant& instant, int piece) {
   if (instant.fields) return instant.velocity(piece).reshaped();
   const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
   return of.is_explicit() ? Vec(of.velocity().reshaped()) : of.state().v;  // whose state is put together when asked for
+}
+
+// Of increments from 0 on.
+bool is_regular(long i, long all) { return (i + 1) * n_samples / all != i * n_samples / all; }
+
+// One in each of equal spans, placed by the golden section, so that they keep no step with the motion; the regular too.
+bool is_sampled(long i, long all) {
+  const long span = i * n_strains / all, first = (span * all + n_strains - 1) / n_strains,
+             length = ((span + 1) * all + n_strains - 1) / n_strains - first;
+  const double place = std::fmod(static_cast<double>(span + 1) * (std::numbers::phi - 1.0), 1.0);
+  return i == first + static_cast<long>(place * static_cast<double>(length)) || is_regular(i, all);
 }
 
 double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
@@ -62,7 +74,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
     for (size_t i = 0; i < momenta.size(); i += 3) sum += Eigen::Map<const Vec3>(&momenta[i]);
     return sum;
   });
-  constexpr int width = OctaveSamples::most_octaves + 2;
+  constexpr int width = OctaveSamples::most_octaves + 1;
   std::vector<std::array<double, width>> own_sums(pieces_.size());
   std::vector<int> n_octaves(pieces_.size());
   const auto take = [&](int i) {
@@ -73,12 +85,10 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
     const Vec momenta = own.mass.cwiseProduct(own.velocity);
     sums[0] = own.velocity.dot(momenta);
     if (!linked_.are_one()) own.momentum.noalias() = own.directions * momenta;
-    const Vec* const old = own.octaves.latest();
-    sums[1] = old ? (own.mass.array() * (own.velocity - *old).array().square()).sum() / (dt_ * dt_) : 0.0;
-    n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 2);
+    n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 1);
   };
   parallel_for(static_cast<int>(pieces_.size()), take, Schedule::as_free, n_threads);
-  const int n = 2 + n_octaves.front();
+  const int n = 1 + n_octaves.front();
   next = 0;
   const std::vector<double> all =
       of_all_pieces(cut, n, [&](int, double* to) { std::copy_n(own_sums[next++].data(), n, to); });
@@ -89,11 +99,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
     parts_[static_cast<size_t>(cut.piece(i).part)].kinetic += 0.5 * all[static_cast<size_t>(i * n)];
   kinetic_now_ = 0.5 * sums[0];
   if (!linked_.are_one()) kinetic_now_ -= linked_.energy_as_wholes(instant, momenta_of_all(), carried_->free());
-  rate_ += sums[1];
-  n_rates_ += has_old_;
-  if (has_old_) kinetic_rates_ += kinetic_now_;
-  has_old_ = true;
-  bank_->add(std::span(sums).subspan(2));
+  bank_->add(std::span(sums).subspan(1));
 }
 
 ErrorEstimator::ErrorEstimator(const Problem& problem, PartViews& views)
@@ -121,10 +127,11 @@ void ErrorEstimator::begin_step(const Instant& start) {
     own.mass = masses_of(start, own.piece);
     own.directions = directions_of(start, own.piece);
     own.start = strained_piece(start, own.piece);
+    own.before = Points::Zero(3, own.start.cols());
   });
   carried_.emplace(start);
   linked_.begin_step(start);
-  has_old_ = false;
+  strain_at_stress_ = 0.0;
   bank_.emplace(start.model.is_tuned());
   dt_ = start.interval();
   total_mass_ = 0.0;
@@ -182,7 +189,7 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > carried)
     static_.iteration = std::max(
         {static_.iteration, still_.left / std::sqrt(work), still_.missing / std::max(work, 1e-4 * energies.strain)});
-  const StressEnergies energies_now = stress_energies(instant);
+  const StressEnergies energies_now = stress_energies(instant, strain_energies(instant).of_motion);
   // What is left of nothing is rounding.
   most_strain_ = std::max({most_strain_, energies_now.strain, still_.strain});
   if (energies_now.strain > carried)
@@ -190,19 +197,43 @@ void ErrorEstimator::accept_static(const Instant& instant) {
         std::max(static_.mesh, ratio(energies_now.error(), std::max(energies_now.strain, 1e-8 * most_strain_)));
 }
 
-void ErrorEstimator::sample_stress(const Instant& instant) {
-  lumping_sum_ += lumping_energy(instant);
-  kinetic_sum_ += kinetic_now_;
-  const StressEnergies now = stress_energies(instant);
+// What moves as a whole, spins, flies or slides, has no strain, and nothing in it swings: the mean frequency is that of
+// strain energies.
+void ErrorEstimator::sample(const Instant& instant) {
+  const long all = instant.model.step->n_increments(), i = instant.increment;
+  if (is_sampled(i, all)) sample_strain(instant, is_regular(i, all));
+  if (!is_sampled(i + 1, all)) return;
+  parallel_for(static_cast<int>(pieces_.size()), [&](int k) {
+    PieceMotion& own = pieces_[static_cast<size_t>(k)];
+    own.before = strained_piece(instant, own.piece) - own.start;
+  });
+}
+
+void ErrorEstimator::sample_strain(const Instant& instant, bool is_regular) {
+  const StrainEnergies now = strain_energies(instant);
+  strain_now_ = now.of_motion;
+  moving_ += kinetic_now_;
+  strained_ += now.of_motion;
+  rate_ += now.of_velocities;
+  ++n_strained_;
+  shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.of_motion);
+  for (size_t k = 0; k < parts_.size(); ++k)
+    parts_[k].energy = std::max(parts_[k].energy, parts_[k].kinetic + now.of_parts[k]);
+  // A short pulse has its stress between the regular instants.
+  if (is_regular || now.of_motion > 4.0 * strain_at_stress_)
+    sample_stress(instant, now.of_motion, is_regular ? 1.0 : static_cast<double>(n_samples) / n_strains);
+}
+
+// weight: of the time that the instant stands for.
+void ErrorEstimator::sample_stress(const Instant& instant, double strain, double weight) {
+  lumping_sum_ += weight * lumping_energy(instant);
+  kinetic_sum_ += weight * kinetic_now_;
+  const StressEnergies now = stress_energies(instant, strain);
   stress_energy_ = std::max(stress_energy_, now.error());
-  sums_.within += now.within;
-  sums_.at_surface += now.at_surface;
-  sums_.strain += now.strain;
-  strain_now_ = now.strain;
-  shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.strain);
-  for (size_t i = 0; i < parts_.size(); ++i)
-    parts_[i].energy = std::max(parts_[i].energy, parts_[i].kinetic + now.strains[i]);
-  ++n_stress_;
+  sums_.within += weight * now.within;
+  sums_.at_surface += weight * now.at_surface;
+  sums_.strain += weight * now.strain;
+  strain_at_stress_ = std::max(strain_at_stress_, strain);
 }
 
 void ErrorEstimator::accept(const Instant& instant) {
@@ -218,8 +249,7 @@ void ErrorEstimator::accept(const Instant& instant) {
   if (instant.work_left) watch_parts(instant);
   kinetic_ = std::max(kinetic_, kinetic_now_);
   stored_ = std::max(stored_, energies.held());
-  const long all = instant.model.step->n_increments(), i = instant.increment + 1;
-  if ((i * n_samples) / all != ((i - 1) * n_samples) / all) sample_stress(instant);
+  sample(instant);
 }
 
 // A light part on a heavy one has little of the energy that the tolerance is relative to. What the iteration leaves
@@ -259,11 +289,12 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   estimate.velocity = total_mass_ > 0.0 ? root / std::sqrt(total_mass_) : 0.0;
   estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
   estimate.time_step = (before_ + (bank_ ? bank_->phase_error(phase_factor_) : 0.0)) / root;
-  if (n_stress_ == 0 || n_rates_ == 0 || sums_.strain <= 0.0 || kinetic_rates_ <= 0.0) return estimate;
-  // Rayleigh's quotient of the accelerations, over the energy of which there is less: strain, of what moves as a whole,
-  // or kinetic, of what is bent or let go about another place than that of the start.
-  const double moving = kinetic_rates_ / static_cast<double>(n_rates_), strained = sums_.strain / n_stress_,
-               frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * std::min(moving, strained));
+  if (sums_.strain <= 0.0 || moving_ <= 0.0) return estimate;
+  if (strained_ < n_strained_ * at_rest_) return estimate;  // of what moves as a whole there is only rounding
+  // Rayleigh's quotient of the velocities, over the energy of which there is less: strain, of what moves as a whole, or
+  // kinetic, of what swings about another place than that of the start: let go there, it has three times as much strain
+  // energy on average. With more than that a load holds it strained, and the time is the load's.
+  const double frequency2 = rate_ / std::max(std::min(moving_, strained_), strained_ / 3.0);
   const double steps2 = frequency2 * dt_ * dt_;  // (w dt)^2
   estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
   const FrequencyShares mesh = frequency_shares();

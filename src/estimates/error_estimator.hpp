@@ -58,8 +58,13 @@ class ErrorEstimator {
   // energy of the same displacements.
   struct StressEnergies {
     double within = 0.0, at_surface = 0.0, strain = 0.0;
-    std::vector<double> strains{};  // of the substructures
     double error() const { return within + at_surface; }
+  };
+  // Strain energies of the displacements since the start of the step (J), of all substructures and of each, and of the
+  // velocities (J/s^2).
+  struct StrainEnergies {
+    double of_motion = 0.0, of_velocities = 0.0;
+    std::vector<double> of_parts;
   };
   // What a piece that is here has of a dynamic step.
   struct PieceMotion {
@@ -69,6 +74,7 @@ class ErrorEstimator {
     Vec velocity;                  // m/s, of the same; relative (Q0)
     Vec3 momentum = Vec3::Zero();  // kg m/s, where the carried motion asks for it, or parts that are not linked
     Points start;                  // m, displacements at the start of the step
+    Points before;                 // m, since then, an increment before one that is sampled
     OctaveSamples octaves;
   };
 
@@ -89,8 +95,11 @@ class ErrorEstimator {
   void watch_parts(const Instant& instant);
   std::vector<OfPart> of_parts(double energy) const;
   void take_velocities(const Instant& instant);
-  void sample_stress(const Instant& instant);
-  StressEnergies stress_energies(const Instant& instant);
+  void sample(const Instant& instant);
+  void sample_strain(const Instant& instant, bool is_regular);
+  void sample_stress(const Instant& instant, double strain, double weight);
+  StrainEnergies strain_energies(const Instant& instant) const;
+  StressEnergies stress_energies(const Instant& instant, double strain);
   double lumping_energy(const Instant& instant);
   FrequencyShares frequency_shares() const;
   void find_free_surfaces(const Instant& start);
@@ -135,13 +144,13 @@ class ErrorEstimator {
   // lumped masses alone.
   StressEnergies sums_;
   double kinetic_sum_ = 0.0, lumping_sum_ = 0.0;
-  int n_stress_ = 0;
-  double total_mass_ = 0.0;     // kg
-  double lag_ = 0.0;            // s^2, of the diagonal mass of cells of order two (eq. Q12)
-  double rate_ = 0.0;           // sum of |dV / dt|^2, in the norm of the mass
-  double kinetic_rates_ = 0.0;  // J, sum of kinetic_now_ over the same
-  long n_rates_ = 0;
-  bool has_old_ = false;  // of the step: velocities of an increment before
+  double total_mass_ = 0.0;  // kg
+  double lag_ = 0.0;         // s^2, of the diagonal mass of cells of order two (eq. Q12)
+  // Sums over the same instants: of kinetic and strain energy of the motion (J), of strain energy of the velocities
+  // (J/s^2).
+  double moving_ = 0.0, strained_ = 0.0, rate_ = 0.0;
+  int n_strained_ = 0;
+  double strain_at_stress_ = 0.0;  // J, of the step, the largest that the stress error has been sampled with
 };
 
 }  // namespace dygita

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "numerics/time_scheme.hpp"
 
 namespace dygita {
+
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2;
+
+}  // namespace
 
 int OctaveSamples::add(const Vec& mass, const Vec& velocity, double* content2) {
   const Vec* sample = &velocity;
@@ -32,32 +39,56 @@ int OctaveSamples::add(const Vec& mass, const Vec& velocity, double* content2) {
   }
 }
 
+// How much of the octave's motion is left since the sample before. Its velocities swing: the squares of four samples,
+// one full turn, make twice that of the envelope, and a wave that a fixed end turns back is at rest for a moment.
+double OctaveBank::Octave::falls_by(double content2, double& envelope) {
+  const double before = *std::max_element(crests.begin(), crests.end());
+  last[static_cast<size_t>(n) % last.size()] = content2;
+  envelope = std::sqrt(0.5 * std::accumulate(last.begin(), last.end(), 0.0));
+  crests[static_cast<size_t>(n++) % crests.size()] = envelope;
+  const double now = *std::max_element(crests.begin(), crests.end());
+  return before > 0.0 ? std::min(1.0, now / before) : 1.0;
+}
+
+// An oscillator of the octave with the damping that spectra have gathers what its envelope brings; its largest
+// response, and all that come near it, see the phase error of their time.
+void OctaveBank::Octave::add(double content2, double lag) {
+  constexpr double damping = 0.05, near = 0.9;
+  double envelope = 0.0;
+  const double share = falls_by(content2, envelope), now = std::sqrt(content2);
+  content = std::max(content, now);
+  phase = share * phase + lag * now;
+  turned = share * turned + quarter * now;
+  most_phase = std::max(most_phase, phase);
+  most_turned = std::max(most_turned, turned);
+  response += damping * quarter * (envelope - response);
+  largest_response = std::max(largest_response, response);
+  if (response < near * largest_response) return;
+  heard_phase = std::max(heard_phase, phase);
+}
+
 void OctaveBank::add(std::span<const double> content2) {
   if (octaves_.size() < content2.size()) octaves_.resize(content2.size());
   for (size_t i = 0; i < content2.size(); ++i) {
-    constexpr double quarter = std::numbers::pi / 2;
-    const double content = std::sqrt(content2[i]), steps = std::exp2(i);
-    octaves_[i].content = std::max(octaves_[i].content, content);
-    octaves_[i].phase += steps * TimeScheme::phase_lag(quarter / steps, is_tuned_) * content;
-    octaves_[i].turned += quarter * content;
+    const double steps = std::exp2(i);
+    octaves_[i].add(content2[i], steps * TimeScheme::phase_lag(quarter / steps, is_tuned_));
   }
 }
 
 // What has lost its phase has nothing in common with the exact motion.
-double OctaveBank::error_of(const Octave& octave, double factor, double shift) const {
-  return std::min(factor * octave.phase + shift * octave.turned, std::numbers::sqrt2 * octave.content);
-}
-
 double OctaveBank::phase_error(double factor, double shift) const {
   double sum = 0.0;
-  for (const Octave& octave : octaves_) sum += std::pow(error_of(octave, factor, shift), 2);
+  for (const Octave& octave : octaves_)
+    sum += std::pow(
+        std::min(factor * octave.most_phase + shift * octave.most_turned, std::numbers::sqrt2 * octave.content), 2);
   return std::sqrt(sum);
 }
 
 std::vector<OctaveBank::Lag> OctaveBank::lags(double factor) const {
   std::vector<Lag> all;
   for (size_t i = 0; i < octaves_.size(); ++i)
-    all.push_back({std::numbers::pi / 2 / std::exp2(i), error_of(octaves_[i], factor, 0.0)});
+    all.push_back({quarter / std::exp2(i),
+                   std::min(factor * octaves_[i].heard_phase, std::numbers::sqrt2 * octaves_[i].content)});
   return all;
 }
 

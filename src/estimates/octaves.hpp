@@ -15,8 +15,6 @@ class OctaveSamples {
   // Samples the velocities. Writes the square of the content of each octave that it completes, from octave 0 on, and
   // says how many these are: the same for pieces that have been given as many samples. mass: kg, weights.
   int add(const Vec& mass, const Vec& velocity, double* content2);
-  // The velocities last added; null: none yet.
-  const Vec* latest() const { return octaves_.empty() ? nullptr : &octaves_.front().last[0]; }
   static constexpr int most_octaves = 32;
 
  private:
@@ -42,7 +40,7 @@ class OctaveBank {
   // of all frequencies, adds what it turns them by.
   double phase_error(double factor = 1.0, double shift = 0.0) const;
   bool is_tuned() const { return is_tuned_; }
-  // What an octave turns by in a sample (rad), and its phase error (sqrt of J): what is off of its motion by now.
+  // What an octave turns by in a sample (rad), and its phase error (sqrt of J) when an oscillator responds to it most.
   struct Lag {
     double turn = 0.0, error = 0.0;
   };
@@ -51,10 +49,17 @@ class OctaveBank {
  private:
   struct Octave {
     double content = 0.0;  // largest norm so far
-    double phase = 0.0;    // sum of content x phase error of a sample
-    double turned = 0.0;   // sum of content x all that it turns by in a sample
+    // Sums of content x what it turns by in a sample, which fall with the motion that carries them: phase error, and
+    // the whole turn. Now, largest so far, and the former when an oscillator's response to the octave is largest.
+    double phase = 0.0, most_phase = 0.0, heard_phase = 0.0;
+    double turned = 0.0, most_turned = 0.0;
+    std::array<double, 4> last{};     // squares of contents
+    std::array<double, 16> crests{};  // envelopes, of which the largest carries the errors
+    double response = 0.0, largest_response = 0.0;
+    long n = 0;
+    double falls_by(double content2, double& envelope);
+    void add(double content2, double lag);
   };
-  double error_of(const Octave& octave, double factor, double shift) const;
 
   bool is_tuned_;
   std::vector<Octave> octaves_;

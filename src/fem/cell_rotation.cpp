@@ -1,12 +1,11 @@
 #include "fem/cell_rotation.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "fem/cell_loop.hpp"
-#include "numerics/dense.hpp"
+#include "fem/rigid_motion.hpp"
 
 namespace dygita {
 
@@ -45,26 +44,12 @@ namespace {
 
 // The rotation of its points as a whole, by least squares; at their middle.
 CellExtreme rotation_of_points(const Mesh& mesh, const Points& displacement) {
-  Vec3 middle = Vec3::Zero(), moved = Vec3::Zero();
-  const int n = mesh.n_nodes();
-  double n_places = 0.0;
-  for (int node = 0; node < n; ++node)
-    if (mesh.inside->is_place(node)) {
-      middle += mesh.nodes.col(node);
-      moved += displacement.col(node);
-      n_places += 1.0;
-    }
-  middle /= n_places;
-  moved /= n_places;
-  Mat3 inertia = Mat3::Zero();
-  Vec3 moment = Vec3::Zero();
-  for (int node = 0; node < n; ++node) {
-    if (!mesh.inside->is_place(node)) continue;
-    const Vec3 arm = mesh.nodes.col(node) - middle;
-    inertia += arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
-    moment += arm.cross(displacement.col(node) - moved);
-  }
-  return {std::atan((pseudo_inverse(inertia) * moment).norm()), middle};
+  std::vector<int> places;
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (mesh.inside->is_place(node)) places.push_back(node);
+  const NearestRigidMotion motion =
+      nearest_rigid_motion(mesh.nodes(Eigen::all, places), displacement(Eigen::all, places));
+  return {std::atan(motion.rotation.norm()), motion.middle};
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ end
 local parts, joints, supports, steps, places = {}, {}, {}, {}, {}
 local dt, duration = 0.5*us, 60*us
 local X, Y, Z = { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
-local function fixed(on) supports[#supports+1] = support.fixed{ name = "held", on = on } return supports[#supports] end
+local foot
+local function fixed(on) foot, supports[1] = on, support.fixed{ name = "held", on = on } return supports[1] end
 local function shock(loads, after) steps[#steps+1] = step.dynamic{ name = "shock", after = after, duration = duration, dt = dt / p.finer, loads = loads } end
 local function see(on, direction) places[#places+1] = { on, direction } end
 local function at_x(part, x, y) return part:where(function(a, b) return near(a, x) and (not y or near(b, y)) end) end
@@ -35,7 +36,7 @@ elseif p.scene == 2 then -- a block hits a bar
   see(a:face "zmin", Z) see(b:face "zmax", Z)
 elseif p.scene == 3 then -- a cantilever on a shaken base
   local a = box("a", { 60*mm, 6*mm, 4*mm }, { 10, 2, 1 })
-  parts, dt, duration = { a }, 2*us, 1000*us
+  parts, dt, duration = { a }, 2*us, 4000*us
   shock{ load.base_acceleration{ on = fixed(a:face "xmin"), direction = { 0.2, 0.3, 1 }, history = half{ peak = 10000, duration = 200*us } } }
   see(a:face "xmax", Z) see(a:face "xmax", Y)
 elseif p.scene == 4 then -- a block pressed on a block, pushed aside
@@ -171,6 +172,67 @@ elseif p.scene == 20 then -- a damped frame of three bars on a shaken base
   dt, duration = 10*us, 5*ms
   shock{ load.base_acceleration{ on = fixed{ left:face "zmin", right:face "zmin" }, direction = { 1, 0.5, 0.3 }, history = half{ peak = 2000, duration = 500*us } } }
   see(top:face "xmax", X) see(at_x(top, 30*mm), Z)
+elseif p.scene == 26 then -- a free block pushed softly: it flies
+  local a = box("a", { 20*mm, 20*mm, 20*mm }, { 3, 3, 3 })
+  parts, dt, duration = { a }, 2*us, 1000*us
+  shock{ load.pressure{ on = a:face "zmin", history = half{ peak = 10*MPa, duration = 200*us } } }
+  see(a:face "zmax", Z) see(a:face "xmax", X)
+elseif p.scene == 27 then -- a free block pushed along its top: it spins
+  local a = box("a", { 20*mm, 20*mm, 20*mm }, { 3, 3, 3 })
+  parts, dt, duration = { a }, 1*us, 500*us
+  shock{ load.traction{ on = a:face "zmax", x = half{ peak = 0.2*MPa, duration = 40*us } } }
+  see(a:face "zmax", X) see(a:face "xmax", Z)
+elseif p.scene == 28 then -- a block slides over a plate
+  local a, b = box("a", { 60*mm, 20*mm, 8*mm }, { 12, 4, 2 }), box("b", { 20*mm, 10*mm, 5*mm }, { 4, 2, 1 }, { at = { 10*mm, 5*mm, 8*mm } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.2 } }
+  fixed(a:face "zmin")
+  dt, duration = 1*us, 1000*us
+  shock{ load.pressure{ on = b:face "zmax", history = 5*MPa }, load.traction{ on = b:face "zmax", x = half{ peak = 3*MPa, duration = 200*us } } }
+  see(b:face "zmax", X) see(a:face "xmax", X)
+elseif p.scene == 29 then -- a bar hits a wall and flies off
+  local a = box("a", { 5*mm, 5*mm, 100*mm }, { 1, 1, 25 }, { velocity = { 0, 0, -5 } })
+  parts, supports, duration = { a }, { support.wall{ name = "wall", on = a:face "zmin" } }, 200*us
+  shock{}
+  see(a:face "zmax", Z) see(a:face "zmin", Z)
+elseif p.scene == 30 then -- a block kicked off a plate
+  local a, b = box("a", { 40*mm, 40*mm, 10*mm }, { 6, 6, 2 }), box("b", { 10*mm, 10*mm, 10*mm }, { 2, 2, 2 }, { at = { 15*mm, 15*mm, 10*mm } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.2 } }
+  fixed(a:face "xmin")
+  dt, duration = 1*us, 1000*us
+  shock{ load.pressure{ on = a:face "zmin", history = half{ peak = 20*MPa, duration = 50*us } } }
+  see(b:face "zmax", Z) see(a:face "xmax", Z)
+elseif p.scene == 31 then -- two free bars, bonded, pushed aside: they spin
+  local a, b = box("a", { 40*mm, 6*mm, 6*mm }, { 8, 1, 1 }), box("b", { 6*mm, 6*mm, 30*mm }, { 1, 1, 6 }, { of = aluminium, at = { 34*mm, 0, 6*mm } })
+  parts, dt, duration = { a, b }, 2*us, 1000*us
+  bonded(a:face "zmax", b:face "zmin")
+  shock{ load.traction{ on = b:face "zmax", x = half{ peak = 1*MPa, duration = 100*us } } }
+  see(b:face "zmax", X) see(a:face "xmin", Z)
+elseif p.scene == 32 then -- a nut rattles between two plates
+  local a, b = box("a", { 60*mm, 10*mm, 4*mm }, { 12, 2, 1 }), box("b", { 60*mm, 10*mm, 4*mm }, { 12, 2, 1 }, { at = { 0, 0, 10.1*mm } })
+  local nut = box("nut", { 6*mm, 6*mm, 6*mm }, { 2, 2, 2 }, { at = { 27*mm, 2*mm, 4*mm } })
+  parts = { a, b, nut }
+  joints = { interface.contact{ name = "below", between = { a:face "zmax", nut:face "zmin" }, gap = "geometry" }, interface.contact{ name = "above", between = { nut:face "zmax", b:face "zmin" }, gap = "geometry", within = 1*mm } }
+  local base = fixed{ a:face "xmin", a:face "xmax", b:face "xmin", b:face "xmax" }
+  dt, duration = 2*us, 1000*us
+  shock{ load.base_acceleration{ on = base, direction = Z, history = half{ peak = 5000, duration = 200*us } } }
+  see(nut:face "zmax", Z) see(at_x(b, 30*mm), Z)
+elseif p.scene == 33 then -- a free bar of two metals, struck
+  local a, b = box("a", { 6*mm, 6*mm, 50*mm }, { 1, 1, 10 }), box("b", { 6*mm, 6*mm, 50*mm }, { 1, 1, 10 }, { of = aluminium, at = { 0, 0, 50*mm } })
+  parts, dt, duration = { a, b }, 2*us, 1500*us
+  bonded(a:face "zmax", b:face "zmin")
+  shock{ load.traction{ on = a:face "zmin", x = half{ peak = 5*MPa, duration = 60*us }, z = half{ peak = 10*MPa, duration = 60*us } } }
+  see(b:face "zmax", X) see(b:face "zmax", Z)
+elseif p.scene == 34 then -- a damped plate held along one edge, struck
+  local a = box("a", { 60*mm, 40*mm, 3*mm }, { 12, 8, 1 }, { of = damped })
+  parts, dt, duration = { a }, 5*us, 5*ms
+  fixed(a:face "xmin")
+  shock{ load.force{ on = at_x(a, 60*mm, 0), z = half{ peak = 50, duration = 200*us } } }
+  see(at_x(a, 60*mm, 40*mm), Z) see(at_x(a, 30*mm, 0), Z)
+elseif p.scene == 35 then -- a damped cantilever on a shaken base
+  local a = box("a", { 80*mm, 6*mm, 4*mm }, { 16, 2, 1 }, { of = damped })
+  parts, dt, duration = { a }, 5*us, 8*ms
+  shock{ load.base_acceleration{ on = fixed(a:face "xmin"), direction = { 0, 0.5, 1 }, history = half{ peak = 3000, duration = 300*us } } }
+  see(a:face "xmax", Z) see(at_x(a, 40*mm), Y)
 elseif p.scene >= 21 then -- static: a square bar twisted (21, 22, 23) or bent (24, 25), one, two or four cells across
   local across = ({ 1, 2, 4, 1, 2 })[p.scene - 20]
   local a = box("a", { 60*mm, 8*mm, 8*mm }, { p.scene < 24 and 20 or 8, across, across })
@@ -182,6 +244,7 @@ end
 local outputs = { output.energy{} }
 for i, place in ipairs(places) do
   outputs[#outputs+1] = output.history{ name = "v" .. i, on = place[1], direction = place[2], quantity = "velocity" }
+  if foot then outputs[#outputs+1] = output.history{ name = "foot " .. i, on = foot, direction = place[2], quantity = "velocity" } end
   local a = output.history{ name = "a" .. i, on = place[1], direction = place[2], quantity = "acceleration" }
   outputs[#outputs+1] = a
   outputs[#outputs+1] = output.srs{ name = "s" .. i, of = a, from = math.max(1 / duration, p.scene > 12 and 200 or 1000), to = math.min(100e3, 0.25 / dt / (p.scene > 12 and 4 or 1)), per_octave = 6 }

@@ -8,10 +8,10 @@
 
 namespace dygita::test {
 
-inline std::vector<const Table*> velocities(const SpectraRun& run) {
+inline std::vector<const Table*> tables_named(const SpectraRun& run, char first) {
   std::vector<const Table*> tables;
   for (const OutputPtr& output : run.problem.outputs)
-    if (output->name.front() == 'v') tables.push_back(&run.result->tables.at(output.get()));
+    if (output->name.front() == first) tables.push_back(&run.result->tables.at(output.get()));
   return tables;
 }
 
@@ -31,9 +31,13 @@ inline Signal last_step(const Table& table) {
   return signal;
 }
 
+// Velocities v1, v2, ... less those of the foot, which is shaken alike whatever dt and mesh.
 inline std::vector<Signal> signals(const SpectraRun& run) {
-  std::vector<Signal> all;
-  for (const Table* table : velocities(run)) all.push_back(last_step(*table));
+  std::vector<Signal> all, feet;
+  for (const Table* table : tables_named(run, 'v')) all.push_back(last_step(*table));
+  for (const Table* table : tables_named(run, 'f')) feet.push_back(last_step(*table));
+  for (size_t i = 0; i < feet.size(); ++i)
+    for (size_t k = 0; k < all[i].values.size(); ++k) all[i].values[k] -= feet[i].values[k];
   return all;
 }
 

@@ -291,6 +291,53 @@ TEST_F(Pulse, is_held_against_the_energy_of_what_touches_alone) {
   }
 }
 
+// A free block, pushed along an axis at its foot: it flies; or along another at its top: it spins as well.
+const std::string pushed = R"(
+local p = param{ n = 3, finer = 1, spins = 0, peak = 10, pulse = 200, modes = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local a = substructure{ name = "a", material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { p.n, p.n, p.n } } }
+local push = history.half_sine{ peak = p.peak*MPa, duration = p.pulse*us }
+local shock = step.dynamic{ name = "shock", duration = 960*us, dt = 2*us / p.finer, loads = {
+  p.spins == 1 and load.traction{ on = a:face "zmax", x = push } or load.pressure{ on = a:face "zmin", history = push } } }
+if p.modes == 1 then
+  problem{ name = "block", substructures = { a }, steps = { step.static{ name = "rests" } }, outputs = { output.modes{ name = "natural", n = 7 } } }:run{}
+else
+  problem{ name = "block", substructures = { a }, steps = { shock } }:run{}
+end
+)";
+
+// What is off is the ringing, next to which a soft pulse strains the block a hundred times as much.
+TEST_F(Pulse, of_a_block_that_flies_is_held_against_what_strains_it) {
+  std::ofstream(path_) << pushed;
+  const EstimatedRun run = run_estimated(path_, {}), fine = run_estimated(path_, {{"finer", "16"}});
+  std::cout << "time step error of a block that flies: estimated " << run.figures.time_step_error.value() << " %, true "
+            << true_error(run, fine) << " %\n";
+  EXPECT_GT(run.figures.time_step_error.value(), 0.5 * true_error(run, fine));
+  EXPECT_LT(run.figures.time_step_error.value(), limit::discretisation_error);
+  EXPECT_LT(run.figures.mesh_error.value(), limit::discretisation_error);
+  // The pulse's own frequency is 2.5 kHz, the lowest of the block 66 kHz.
+  EXPECT_GT(run.figures.mean_frequency.value(), 2.5e3);
+  EXPECT_LT(run.figures.mean_frequency.value(), 25e3);
+}
+
+// Spinning has no frequency, however fast it is: the mesh is told by the block's own.
+TEST_F(Pulse, of_a_block_that_spins_is_of_its_own_frequencies) {
+  std::ofstream(path_) << pushed;
+  const auto lowest = [&](const char* n) {
+    return run_file(path_, {{"n", n}, {"modes", "1"}}).front().table("natural").column("frequency").back();
+  };
+  const double coarse = lowest("3"), truth = 100.0 * 9.0 / 8.0 * (1.0 - coarse / lowest("9"));
+  for (const char* peak : {"0.2", "10"})
+    for (const IntegrationChoice integration : {IntegrationChoice::implicitly, IntegrationChoice::explicitly}) {
+      const Figures figures =
+          run_estimated(path_, {{"spins", "1"}, {"peak", peak}, {"pulse", "40"}}, 0.0, false, integration).figures;
+      EXPECT_GT(figures.mesh_frequency_error.value(), 0.5 * truth) << peak;
+      EXPECT_LT(figures.mesh_frequency_error.value(), 2.0 * truth) << peak;
+      EXPECT_GT(figures.mean_frequency.value(), 12.5e3) << peak;
+      EXPECT_LT(figures.mean_frequency.value(), coarse) << peak;
+    }
+}
+
 // A bar under a half-sine; what the run warned of.
 std::string warnings(const Settings& settings) {
   testing::internal::CaptureStderr();

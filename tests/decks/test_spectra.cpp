@@ -215,6 +215,20 @@ TEST(SpectrumBand, of_the_mesh_is_near_the_truth) {
   }
 }
 
+// A damped plate and a damped cantilever: lags of what has decayed are no part of the largest response.
+TEST(SpectrumBand, of_the_time_step_forgets_what_has_decayed) {
+  for (const char* number : {"34", "35"}) {
+    const SpectraRun run = scene(number, "1", "1"), fine = scene(number, "1", "4");
+    double band = 0.0, truth = 0.0;
+    for (size_t i = 0; i < run.spectra.size(); ++i) {
+      const BandWorth worth = band_worth(run.spectra[i], fine.spectra[i], "time_step");
+      band += worth.band, truth += 16.0 / 15.0 * worth.truth;
+    }
+    EXPECT_GT(band, 0.5 * truth) << number;
+    EXPECT_LT(band, 3.0 * truth) << number;
+  }
+}
+
 // Scenes of which the motion holds one frequency or many; the trapezoidal rule lags by (w dt)^2/12, the mesh by what
 // cells three times shorter show.
 TEST(Frequency, is_estimated_within_two_of_the_truth) {
