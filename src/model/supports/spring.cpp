@@ -1,4 +1,4 @@
-// support.spring: springs and dampers on the mean motion of a place, or between those of two (manual, eq. J7, J9).
+// support.spring: springs and dampers on the mean motion of a place, or between those of two (manual, eq. J7, J8).
 #include <algorithm>
 
 #include "base/error.hpp"
