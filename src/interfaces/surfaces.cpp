@@ -155,6 +155,21 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
   }
 }
 
+// The same points of nodes whose motions are turned: arms, which the turned mesh has given, in the nodes' own axes.
+SideTrace turned(const SideTrace& met, const Mat3& turn) {
+  SideTrace trace;
+  for (int i = 0; i < met.n_points(); ++i) {
+    std::vector<SideTrace::Share> shares;
+    for (int k = 0; k < met.n_shares(i); ++k) {
+      const SideTrace::Share& own = met.share(i, k);
+      shares.push_back({own.node, own.weight, turn.transpose() * own.arm});
+    }
+    trace.add(shares, turn.transpose() * met.turn(i) * turn);
+  }
+  trace.turn_by(turn);
+  return trace;
+}
+
 // The second side moves as the first one, turned (manual, eq. J9). A node on the axis is on both sides, and moves along
 // the axis as it likes. Where faces match, points that `is_taken_away` says of are left to the other ties there.
 Facing turned(const CyclicSymmetry& cyclic, const Facing& met, const std::function<bool(const Vec3&)>& is_taken_away) {
@@ -162,7 +177,7 @@ Facing turned(const CyclicSymmetry& cyclic, const Facing& met, const std::functi
   if (met.matches()) facing = without(met, is_taken_away);
   facing.carrier = 1;
   facing.tangent = cyclic.along;
-  facing.side_2.turn_by(cyclic.turn);
+  facing.side_2 = turned(facing.side_2, cyclic.turn);
   for (int i = 0; i < facing.n_points(); ++i) {
     const bool is_on_axis = facing.side_1.is_of_one_node(i) && facing.side_2.is_of_one_node(i) &&
                             cyclic.distance(facing.places.col(i)) < 1e-6 * std::sqrt(facing.areas[i]);
