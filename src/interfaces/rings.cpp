@@ -5,6 +5,7 @@
 
 #include "law/law.hpp"
 #include "meeting/segments.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
@@ -31,12 +32,27 @@ bool reaches(const Place& one, const Place& other, const std::vector<std::pair<P
   return std::find(reached.begin(), reached.end(), other) != reached.end();
 }
 
+// Is it a tie in all steps? Contact may open, and what a load releases lets go.
+bool holds_always(const Problem& problem, const InterfacePtr& interface) {
+  const auto releases = [&](const Effect& effect) {
+    const auto* release = std::get_if<Release>(&effect);
+    return release && release->on == interface;
+  };
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      if (const std::vector<Effect> effects = load->effects(); std::any_of(effects.begin(), effects.end(), releases))
+        return false;
+  return interface->law->is_tie();
+}
+
 }  // namespace
 
 Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) : problem_(problem) {
   for (size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
+    if (!interface.law->is_tie()) continue;
+    if (holds_always(problem, problem.interfaces[i])) holding_.insert(static_cast<int>(i));
     add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
     if (!interface.cyclic) add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
   }
@@ -103,8 +119,7 @@ bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x
 
 bool Rings::comes_before(int i, int j) const {
   constexpr double alike = 1e-6;
-  const auto is_tie = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->law->is_tie(); };
-  if (is_tie(i) != is_tie(j)) return is_tie(j);
+  if (!holding_.contains(i) || !holding_.contains(j)) return holding_.contains(i);
   const auto is_cyclic = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->cyclic.has_value(); };
   if (is_cyclic(i) != is_cyclic(j)) return is_cyclic(j);
   const double a = areas_[static_cast<size_t>(i)], b = areas_[static_cast<size_t>(j)];

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "mesh/polygons.hpp"
@@ -14,7 +15,8 @@ class Rings {
  public:
   Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings);
 
-  // At x, are both sides of a tie joined by interfaces that come before it?
+  // At x, are both sides of a tie joined by others that hold in all steps and come before it? Contact, which may open,
+  // takes no point away from a tie.
   std::function<bool(const Vec3&)> closed_by(int i) const;
 
  private:
@@ -28,13 +30,14 @@ class Rings {
   void add(int i, const Face& face, const std::vector<Facet>& facets);
   bool are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const;
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
-  // What is no tie, and of ties the larger; of those as large the first by the names of what it joins: in whatever
-  // order they are declared, and wherever the assembly stands.
+  // Of ties that hold in all steps the larger; of those as large the first by the names of what it joins: in whatever
+  // order they are declared, and wherever the assembly stands. Those that are released come before none.
   bool comes_before(int i, int j) const;
   static bool has(const Entry& entry, const Vec3& x);
 
   const Problem& problem_;
   std::vector<Entry> entries_;  // side after side of the interfaces, in their order
+  std::set<int> holding_;       // ties in all steps
   std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
 };
 

@@ -30,9 +30,11 @@ FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
         if (basis.n < 3 && rest.norm() > 1e-6) basis.directions.col(basis.n++) = rest.normalized();
       }
     const int n_held = basis.n, n_free = 3 - n_held;
-    for (const Vec3& d : directions)
+    for (const Vec3& along : directions) {  // of sums they are as long as what the node counts
+      const Vec3 d = along.normalized();
       if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9)
         basis.directions.col(basis.n++) = d;
+    }
     const auto rest = basis.free_basis();
     Mat3 free = Mat3::Zero();
     for (int j = 0; j < n_free; ++j)

@@ -87,8 +87,11 @@ Resultant resultant(const Instant& instant, const Problem& problem, const std::v
   for (const int s : surfaces_of(instant, targets)) {
     const Surface& surface = (*instant.model.surfaces)[s];
     if (surface.is_of_rotation) continue;
+    const bool is_spring =
+        surface.wall && surface.wall->kind->spring(0);  // along several axes, of which none is normal
     for (int i = 0; i < surface.n_points(); ++i)
-      add(r, tangential, instant.surface(s).points[i].force, surface.facing.normals.col(i));
+      add(r, tangential, instant.surface(s).points[i].force,
+          is_spring ? Vec3(Vec3::Zero()) : Vec3(surface.facing.normals.col(i)));
   }
   for (const Target& target : targets)
     if (const auto* support = std::get_if<SupportPtr>(&target); support && !(*support)->kind->law())

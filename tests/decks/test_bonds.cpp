@@ -212,5 +212,32 @@ TEST(Thrown, parts_joined_to_what_a_support_or_a_load_moves_go_along) {
   }
 }
 
+// Two halves of a bar, bonded across unlike meshes, and a block that lies on both without a load: a contact, which may
+// open, takes no points off the bond where it meets its edge.
+TEST(Bond, keeps_its_points_where_contacts_meet_its_edge) {
+  const auto tip = [](const char* lies, const char* fine) {
+    return run_text(R"(
+local p = param{ lies = 1, fine = 3 }
+local alloy = material.elastic{ name = "alloy", young = 70*GPa, poisson = 0.3, density = 2700 }
+local function block(name, x, z, size, cells) return substructure{ name = name, material = alloy, mesh = mesh.box{ origin = { x*mm, 0, z*mm }, size = size, cells = cells } } end
+local left, right = block("left", 0, 0, { 20*mm, 10*mm, 10*mm }, { 4, 2, 2 }), block("right", 20, 0, { 20*mm, 10*mm, 10*mm }, { 4, p.fine, p.fine })
+local top = block("top", 10, 10, { 20*mm, 10*mm, 5*mm }, { 4, 2, 1 })
+local parts, joints = { left, right }, { interface.bonded{ name = "seam", between = { left:face "xmax", right:face "xmin" } } }
+if p.lies == 1 then
+  parts[3] = top
+  for i, part in ipairs{ left, right } do joints[1 + i] = interface.contact{ name = "rest " .. i, between = { part:face "zmax", top:face "zmin" } } end
+end
+problem{ name = "bar", substructures = parts, interfaces = joints, supports = { support.fixed{ name = "wall", on = left:face "xmin" } },
+  steps = { step.static{ name = "bend", loads = { load.force{ on = right:face "xmax", z = -2*kN } } } },
+  outputs = { output.history{ name = "u", on = right:face "xmax", quantity = "displacement" } } }:run{}
+)",
+                    {{"lies", lies}, {"fine", fine}})[0]
+        .column("u", "z")
+        .back();
+  };
+  for (const char* fine : {"2", "3"})
+    EXPECT_NEAR(tip("1", fine), tip("0", fine), 1e-5 * std::abs(tip("0", fine))) << fine;
+}
+
 }  // namespace
 }  // namespace dygita::test::bonds_tests

@@ -50,6 +50,43 @@ TEST(Cyclic, unlike_meshes_of_the_cuts_are_those_of_the_ring) {
   for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(whole, sector, name, axes), 1e-6);
 }
 
+// Two rings on each other under pressure: what joins them may let go where it reaches the cut, so that both cuts hold
+// there. All is the same around the axis, on the cut and in the middle of the sector.
+TEST(Cyclic, cuts_hold_where_a_joint_reaches_them) {
+  for (const char* joint : {"contact{ friction = 0, ", "contact{ friction = 0.2, ", "bonded{ ",
+                            "bushing{ normal = 1e12, tangential = 2e11, "}) {
+    const DeckRun run =
+        run_text(
+            R"(
+local alloy = material.elastic{ name = "alloy", young = 70*GPa, poisson = 0.3, density = 2700 }
+local function ring(name, low)
+  local wedge = mesh.gmsh{ file = ")" +
+            std::string(DYGITA_SOURCE_DIR) + "/meshes/wedge.geo" +
+            R"(", set = { inner = 30*mm, outer = 50*mm, low = low, high = low + 10*mm, from = 0, to = 45, n_radial = 4, n_around = 6, n_high = 3 } }
+  local part = substructure{ name = name, mesh = wedge:volume "wedge", material = alloy }
+  return part, interface.cyclic{ name = "cut of " .. name, between = { part:face "left", part:face "right" }, axis = { 0, 0, 1 }, n = 8 }
+end
+local low, cut_low = ring("low", 0)
+local high, cut_high = ring("high", 10*mm)
+local foot = interface.)" +
+            joint + R"(name = "foot", between = { low:face "top", high:face "bottom" } }
+local press = step.static{ name = "press", increments = 4, loads = { load.pressure{ on = high:face "top", history = 40*MPa }, load.pressure{ on = high:face "inner", history = 20*MPa } } }
+local function at(degrees)
+  local x, y = 50*mm * math.cos(degrees*deg), 50*mm * math.sin(degrees*deg)
+  return output.history{ name = tostring(degrees == 0 and "cut" or "middle"), on = high:where(function(X, Y, Z) return near(X, x) and near(Y, y) and near(Z, 10*mm) end),
+                         quantity = "displacement" }
+end
+problem{ name = "rings", substructures = { low, high }, interfaces = { foot, cut_low, cut_high }, supports = { support.fixed{ name = "base", on = low:face "bottom" } },
+  steps = { press }, outputs = { at(0), at(22.5) } }:run{}
+)")
+            .at(0);
+    const double cut = run.column("cut", "x").back(),
+                 middle = std::hypot(run.column("middle", "x").back(), run.column("middle", "y").back());
+    EXPECT_GT(middle, 1e-6) << joint;
+    EXPECT_NEAR(cut, middle, 1e-4 * middle) << joint;
+  }
+}
+
 TEST(Cyclic, other_solvers_have_it_too) {
   const DeckRun latin = ring({}, "0"), monolithic = ring({}, "0", "monolithic"), whole = ring({}, "1", "monolithic");
   for (const char* name : {"tip", "wall"}) {

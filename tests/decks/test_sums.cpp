@@ -262,6 +262,45 @@ problem{ name = "box", substructures = { stub, box }, interfaces = { feet }, sup
   }
 }
 
+// Let go, what springs hold between a face that deforms and a rigid body, or two nodes in a lever, swings with the
+// energy that it had: the rows of static and dynamic steps are the same.
+TEST(Springs, and_levers_keep_their_energy) {
+  for (const char* held : {"support.spring{ name = 'mount', on = { pad, box:face 'face 1' }, x = 2e6, y = 3e6, z = "
+                           "4e6, about_x = 200, about_y = 150, about_z = 100 }",
+                           "support.spring{ name = 'mount', on = box:face 'face 1', x = 2e6, y = 3e6, z = 4e6, about_x "
+                           "= 200, about_y = 150, about_z = 100 }",
+                           "lever"})
+    for (const char* solver : {"", "solver = solver.monolithic{}, "}) {
+      const bool is_lever = std::string(held) == "lever";
+      // The interface forces alone leave a body free that springs to the ground hold.
+      if (std::string(held).find("on = box") != std::string::npos && *solver) continue;
+      const DeckRun run = run_text(R"(
+local alloy = material.elastic{ name = "alloy", young = 70*GPa, poisson = 0.33, density = 2700 }
+local plate = substructure{ name = "plate", material = alloy, mesh = mesh.box{ size = { 20*mm, 10*mm, 2*mm }, cells = { 8, 4, 1 } } }
+local pad = plate:face{ normal = { 0, 0, -1 }, at = 0, low = { -1e-7, -1, -1 }, high = { 7.6*mm, 1, 1 } }
+local box = substructure.rigid{ name = "box", on = pad, mass = 0.02, inertia = { 2e-6, 3e-6, 4e-6 }, at = { 4*mm, 6*mm, -7*mm } }
+local arm = substructure{ name = "arm", material = alloy, mesh = mesh.box{ origin = { 0, 20*mm, 0 }, size = { 20*mm, 10*mm, 2*mm }, cells = { 4, 2, 1 } } }
+local fixed = support.fixed{ name = "fixed", on = { plate:face "xmax")" +
+                                   std::string(is_lever ? ", arm:face 'xmax'" : "") + R"( } }
+local function corner(part, y) return part:where(function(X, Y, Z) return near(X, 0) and near(Y, y) and near(Z, 0) end) end
+local held = )" +
+                                   std::string(is_lever ? "support.equation{ name = 'lever', on = { corner(plate, 0), "
+                                                          "corner(arm, 30*mm) }, factors = { 2, -0.7 }, z = true }"
+                                                        : held) +
+                                   R"(
+local bend = step.static{ name = "bend", loads = { load.gravity{ x = 300, y = 500, z = -1000 } } }
+problem{ name = "held", substructures = { plate, )" +
+                                   (is_lever ? "arm" : "box") + R"( }, supports = { fixed, held }, )" + solver + R"(
+  steps = { bend, step.dynamic{ name = "swing", after = bend, duration = 0.2*ms, dt = 2*us, loads = { load.gravity{ z = 0 } } } }, outputs = { output.energy{} } }:run{}
+)")
+                              .at(0);
+      const double all = run.column("energy", "loads")[1];
+      EXPECT_GT(all, 1e-9) << held << solver;
+      EXPECT_LT(std::abs(run.column("energy", "scheme").back()), 2e-3 * all) << held << solver;
+      for (const double kinetic : run.column("energy", "kinetic")) EXPECT_LT(kinetic, 1.1 * all) << held << solver;
+    }
+}
+
 // A bell crank: 2 u along x of one body is the motion along y of the other, each on springs.
 TEST(Equations, have_terms_along_several_axes) {
   const auto run = [](const std::string& equation, const std::string& solver) {
