@@ -1,8 +1,13 @@
 // One sector of a ring: one axis for all cut faces, and nothing that differs from sector to sector.
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
 #include "base/overloaded.hpp"
 #include "checks/parts.hpp"
+#include "mesh/face_nodes.hpp"
 #include "model/extent.hpp"
 #include "model/load.hpp"
 
@@ -56,6 +61,48 @@ void is_same_in_all(const Problem& problem, const CyclicSymmetry& cyclic, const 
                effect);
 }
 
+// A flat cut.
+struct Plane {
+  Vec3 at, normal;
+  double tolerance;  // m
+
+  explicit Plane(const Face& face) {
+    const FaceNodes nodes = face_nodes(*face.part->mesh, face.facets());
+    const Points x = face.part->mesh->nodes(Eigen::all, nodes.nodes).colwise() + face.part->place;
+    at = x.rowwise().mean();
+    normal = nodes.vectors.rowwise().sum().normalized();
+    tolerance = 1e-6 * (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+    is_flat = (normal.transpose() * (x.colwise() - at)).cwiseAbs().maxCoeff() < tolerance;
+  }
+  bool has_facet_of(const Substructure& part) const {
+    const std::vector<Facet> facets = boundary_facets(*part.mesh);
+    return std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
+      const auto nodes = facet.nodes();
+      return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+        return std::abs(normal.dot(part.mesh->nodes.col(node) + part.place - at)) < tolerance;
+      });
+    });
+  }
+  bool is_flat;
+};
+
+// A part with facets in both planes of the cuts is cut by them, as far as one can tell.
+void doubt_free_cuts(const Problem& problem, const Interface& first) {
+  const Plane one(first.side_1), other(first.side_2);
+  if (!one.is_flat || !other.is_flat) return;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const bool is_tied =
+        std::any_of(problem.interfaces.begin(), problem.interfaces.end(), [&](const InterfacePtr& interface) {
+          return interface->cyclic && (interface->side_1.part == part || interface->side_2.part == part);
+        });
+    if (!is_tied && part->mesh->has_cells() && one.has_facet_of(*part) && other.has_facet_of(*part))
+      warn(fmt::format(
+          "{}substructure '{}' has facets in both planes of the cuts of '{}' and no interface.cyclic: it is "
+          "free there; give it one of its own if it goes all around",
+          part->origin.prefix(), part->name, first.name));
+  }
+}
+
 }  // namespace
 
 void cyclic(const Problem& problem) {
@@ -67,6 +114,7 @@ void cyclic(const Problem& problem) {
     is_one_ring(problem, *first, *interface, box.size().norm());
   }
   if (!first) return;
+  doubt_free_cuts(problem, *first);
   const CyclicSymmetry& ring = *first->cyclic;
   for (const SubstructurePtr& part : problem.substructures)
     if (part->velocity.cross(ring.along).norm() > nearly_zero * part->velocity.norm())

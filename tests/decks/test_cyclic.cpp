@@ -153,6 +153,32 @@ problem{ name = "sector", substructures = { part }, interfaces = { cut }, steps 
   }
 }
 
+TEST(Cyclic, a_part_that_is_cut_and_not_tied_is_named) {
+  for (const char* tied : {"0", "1"}) {
+    testing::internal::CaptureStderr();
+    run_text(R"(
+local p = param{ tied = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function wedge(name, low)
+  return substructure{ name = name, material = steel, mesh = mesh.gmsh{ file = ")" +
+                 std::string(DYGITA_SOURCE_DIR) + R"(/meshes/wedge.geo",
+    set = { low = low, high = low + 0.01, n_radial = 1, n_around = 2, n_high = 1 } }:volume "wedge" }
+end
+local low, high = wedge("low", 0), wedge("high", 0.01)
+local function cut(part) return interface.cyclic{ name = "cut of " .. part.name, between = { part:face "left", part:face "right" }, axis = { 0, 0, 1 }, n = 8 } end
+local joints = { interface.bonded{ name = "seam", between = { low:face "top", high:face "bottom" } }, cut(low) }
+if p.tied == 1 then joints[3] = cut(high) end
+problem{ name = "sector", substructures = { low, high }, interfaces = joints, supports = { support.fixed{ name = "base", on = low:face "bottom" } },
+         steps = { step.static{ name = "rest", loads = { load.gravity{ z = -9.81 } } } } }:run{}
+)",
+             {{"tied", tied}});
+    const bool is_told = testing::internal::GetCapturedStderr().find(
+                             "substructure 'high' has facets in both planes of the cuts of 'cut of low' and no "
+                             "interface.cyclic") != std::string::npos;
+    EXPECT_EQ(is_told, *tied == '0') << tied;
+  }
+}
+
 TEST(Cyclic, faces_that_do_not_meet_are_refused) {
   try {
     run_text(R"(

@@ -31,13 +31,25 @@ TEST(Supports, hold_what_their_names_say) {
 
 TEST(Supports, that_sum_places_hold_none_of_them_by_itself) {
   const SupportKindPtr equation = make_support("equation", {{"x", 0.0}, {"y", 1.0}, {"z", 0.0}});
-  const SupportKindPtr spring = make_support(
-      "spring", {{"x", 5.0}, {"y", 0.0}, {"z", 7.0}, {"x_damping", 0.0}, {"y_damping", 0.0}, {"z_damping", 3.0}});
+  const SupportKindPtr spring = make_support("spring", {{"x", 5.0},
+                                                        {"y", 0.0},
+                                                        {"z", 0.0},
+                                                        {"x_damping", 0.0},
+                                                        {"y_damping", 0.0},
+                                                        {"z_damping", 0.0},
+                                                        {"about_x", 0.0},
+                                                        {"about_y", 0.0},
+                                                        {"about_z", 7.0},
+                                                        {"about_x_damping", 0.0},
+                                                        {"about_y_damping", 0.0},
+                                                        {"about_z_damping", 3.0}});
   EXPECT_EQ(equation->sums(), (Directions{.axes = {false, true, false}}));
   EXPECT_EQ(spring->sums(), (Directions{.axes = {true, false, true}}));
   EXPECT_FALSE(equation->spring(1));
-  EXPECT_EQ(spring->spring(2)->stiffness, 7.0);
-  EXPECT_EQ(spring->spring(2)->damping, 3.0);
+  EXPECT_EQ(spring->spring(0)->stiffness, 5.0);
+  EXPECT_EQ(spring->spring(2)->stiffness, 0.0);
+  EXPECT_EQ(spring->spring(5)->stiffness, 7.0);
+  EXPECT_EQ(spring->spring(5)->damping, 3.0);
   for (const SupportKindPtr& kind : {equation, spring}) {
     EXPECT_EQ(kind->holds(true), Directions::none);
     EXPECT_EQ(kind->claims(), Directions::none);
