@@ -942,7 +942,7 @@ words[9] = {
           .. "or `tolerance` is reached" },
       { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
         doc = "assembled: all parts in one system, refactorised where contact changes much; a few tens of iterations for any connectivity. iterated: part "
-          .. "by part, as in dynamic steps. automatic: assembled where 10 parts or more hang together and in sectors of rings, in steps of at most 5 increments, "
+          .. "by part, as in dynamic steps. automatic: assembled where 10 parts or more are joined and in sectors of rings, in steps of at most 5 increments, "
           .. "and where an increment part by part has not converged in 400 iterations" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to verify the condensed ones" },
     },
@@ -1247,7 +1247,7 @@ local methods = {
   },
   {
     kind = "model file", "part", write = "file:part \"name\"", makes = "mesh",
-    doc = "One part of a file of another program, by its name: the instance's, else that of the section's element set, `name[1]` ... where its cells hang together in several pieces.",
+    doc = "One part of a file of another program, by its name: the instance's, else that of the section's element set, `name[1]` ... where its cells form several unconnected pieces.",
     argument = { "name", type = "text", doc = "the part's name" },
   },
   {

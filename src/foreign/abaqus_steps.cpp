@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "foreign/loaded_facets.hpp"
 
 namespace dygita {
 
@@ -114,7 +115,7 @@ class AnalysisReader {
       }
     }
     for (const AbaqusStep& step : analysis_.steps)
-      if (!ring_.empty() && step.procedure == "FREQUENCY" && !step.is_of_diameter_0)
+      if (is_sector_ && step.procedure == "FREQUENCY" && !step.is_of_diameter_0)
         analysis_.untranslated.push_back(
             fmt::format("{}: modes of all nodal diameters: a deck has those of nodal diameter 0", step.where));
     constraints_.finish(analysis_.springs, analysis_.untranslated);
@@ -296,46 +297,21 @@ class AnalysisReader {
     add_actions(placed, FileAction::Kind::force, "cload", sayings);
   }
 
-  // Facets of a card with their loads: what is said twice of one adds up, as in ccx.
-  struct LoadedFacets {
-    struct Loaded {
-      ForeignFacet facet;
-      double value;
-      const DataLine* line;
-    };
-    std::vector<Loaded> all;
-    std::map<std::pair<int, std::array<int, 4>>, size_t> known;
-
-    void add(const ForeignFacet& facet, double value, const DataLine& line) {
-      const auto [at, is_new] = known.try_emplace({facet.cell, facet.corners}, all.size());
-      if (is_new)
-        all.push_back({facet, value, &line});
-      else
-        all[at->second].value += value;
-    }
-  };
-
   FileAction pressure(const FileCard& card, double by, const DataLine& line) const {
     return {FileAction::Kind::pressure,        "", {by, 0, 0}, {}, card.option("AMPLITUDE"),
             file_.where(line.file, line.line), 0};
   }
 
   void add_loaded(const FileCard& card, const LoadedFacets& loaded) {
-    std::map<double, ForeignFace> by_value;
-    for (const auto& [facet, value, line] : loaded.all) {
-      auto [face, is_new] = by_value.try_emplace(value);
-      if (is_new) {
-        FileAction action = pressure(card, value, *line);
-        action.place =
-            line->file > 0 ? fmt::format("dload {}.{}", line->file, line->line) : fmt::format("dload {}", line->line);
-        for (const auto& [other, before] : by_value)  // several sums of one line
-          if (before.name == action.place) action.place += " and";
-        face->second = {action.place, {}, action.where};
-        actions().push_back(action);
-      }
-      face->second.facets.push_back(facet);
+    std::set<std::string> names;
+    for (const auto& [value, line, facets] : loaded.by_value()) {
+      FileAction action = pressure(card, value, *line);
+      action.place =
+          line->file > 0 ? fmt::format("dload {}.{}", line->file, line->line) : fmt::format("dload {}", line->line);
+      while (!names.insert(action.place).second) action.place += " and";  // several sums of one line
+      model_.model().surfaces.push_back({action.place, facets, action.where});
+      actions().push_back(action);
     }
-    for (auto& [value, face] : by_value) model_.model().surfaces.push_back(std::move(face));
   }
 
   void read_pressures(const PlacedCard& placed) {
@@ -428,7 +404,10 @@ class AnalysisReader {
     joint.where = file_.where(card);
     joint.is_adjusted = card.has("ADJUST");
     if (card.has("MULTISTAGE")) return leave(card, "it joins sectors of different rings");
-    if (card.has("CYCLICSYMMETRY")) joint.ring = ring_of(card);
+    if (card.has("CYCLICSYMMETRY")) {
+      joint.ring = ring_of(file_, card);
+      is_sector_ = true;
+    }
     if (!joint.is_tie) note_interaction(card.option("INTERACTION"), joint);
     for (const DataLine& line : card.data) {
       LineFields fields(file_, line);
@@ -436,28 +415,6 @@ class AnalysisReader {
       joint.other = fields.name("a surface");
       analysis_.joints.push_back(joint);
     }
-  }
-
-  // The *CYCLIC SYMMETRY MODEL of a tie: of its name, or of none.
-  AbaqusRing ring_of(const FileCard& tie) {
-    for (const FileCard& card : file_.cards()) {
-      if (card.keyword != "CYCLICSYMMETRYMODEL") continue;
-      if (card.has("TIE") && in_capitals(card.option("TIE")) != in_capitals(tie.option("NAME"))) continue;
-      if (card.data.empty()) file_.fail(card, "it has no axis");
-      const std::string sectors = card.option("N");  // a line of data has no text of its own
-      const DataLine of_n{sectors, card.file, card.line};
-      LineFields fields(file_, card.data[0]);
-      const auto point = [&] {
-        const double x = fields.real("a coordinate"), y = fields.real("a coordinate"), z = fields.real("a coordinate");
-        return Vec3(x, y, z);
-      };
-      const long n = LineFields(file_, of_n).whole("N = sectors of the ring");
-      const Vec3 from = point(), to = point();
-      if (n < 2 || from == to) file_.fail(card, "an axis through two points, and two sectors or more, are expected");
-      ring_ = file_.where(card);
-      return {n, from, to};
-    }
-    file_.fail(tie, "there is no *CYCLIC SYMMETRY MODEL of it");
   }
 
   // Modes of all sectors alike are those of nodal diameter 0.
@@ -489,8 +446,8 @@ class AnalysisReader {
   AbaqusModel& model_;
   const CardFile& file_;
   AbaqusAnalysis analysis_;
-  std::string ring_;      // where a file of one sector says so
-  std::set<int> turned_;  // nodes in axes of *TRANSFORM
+  bool is_sector_ = false;  // of a ring
+  std::set<int> turned_;    // nodes in axes of *TRANSFORM
   AbaqusConstraints constraints_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "foreign/abaqus_constraints.hpp"
 #include "foreign/abaqus_model.hpp"
+#include "foreign/abaqus_ring.hpp"
 #include "foreign/file_actions.hpp"
 
 namespace dygita {
@@ -21,12 +22,6 @@ struct AbaqusStep {
   std::vector<FileAction> actions;
   std::map<int, double> temperatures;  // of nodes of the model, K
   std::string temperatures_where;
-};
-
-// Of a sector: two points of the axis, in the units of the file, and the sectors of the ring.
-struct AbaqusRing {
-  long n;
-  Vec3 from, to;
 };
 
 struct AbaqusJoint {

@@ -203,7 +203,7 @@ std::vector<ForeignPart> parts_of(ForeignModel& model) {
     const std::vector<CellList> pieces = pieces_of_group(model, of_group[g], above);
     if (pieces.size() > 1)
       model.told.push_back(
-          fmt::format("the cells of '{}' hang together in {} pieces: parts '{}[1]' to '{}[{}]', all of which "
+          fmt::format("the cells of '{}' form {} unconnected pieces: parts '{}[1]' to '{}[{}]', all of which "
                       "file:parts \"{}\" returns",
                       name, pieces.size(), name, name, pieces.size(), name));
     for (size_t p = 0; p < pieces.size(); ++p)

@@ -26,7 +26,7 @@ struct ForeignFacet {
   std::array<int, 4> corners;
 };
 
-// What makes cells one part, as far as they hang together.
+// What makes cells one part, as far as they are connected.
 struct ForeignGroup {
   std::string name;                   // of its parts
   std::string material, orientation;  // names; empty: none
@@ -87,7 +87,7 @@ struct ForeignPart : StepPart {
   std::map<std::string, std::vector<int>> regions;  // nodes of the part by the names of sets
 };
 
-// The cells of each group by those that hang together: one part, or several that are called name[1], name[2], ...
+// The connected cells of each group: one part, or several that are called name[1], name[2], ...
 // Faces: surfaces, and sets that have all nodes of facets on the boundary, unless a surface has their name. Throws
 // InputError with the line of a cell that is inverted, flat or doubled. Adds to `told`.
 std::vector<ForeignPart> parts_of(ForeignModel& model);

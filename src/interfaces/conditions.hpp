@@ -30,6 +30,8 @@ struct Held {
   std::array<const Support*, 3> support{};                    // who holds it, null for a load
   bool is_absorbed = false;                                   // an absorbing support is among those that stand here
 
+  // Is direction j held by a support or a prescribed motion? Else the program has pinned it against a free motion.
+  bool is_held(int j) const { return support[static_cast<size_t>(j)] || !motion[static_cast<size_t>(j)].empty(); }
   // An orthonormal basis of what is left free: 3 x (3 - n).
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> free_basis() const;
 };

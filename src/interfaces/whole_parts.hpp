@@ -1,4 +1,4 @@
-// Parts whose cells do not hang together: their pieces pass through each other, since no part is kept out of itself.
+// Parts whose cells are not connected: their pieces pass through each other, since no part is kept out of itself.
 #pragma once
 
 #include "interfaces/surfaces.hpp"

@@ -33,7 +33,7 @@ struct LoosePiece {
   Mesh mesh;
   std::vector<int> nodes;
 };
-// Empty where they all hang together.
+// Empty where they are all connected.
 std::vector<LoosePiece> loose_pieces(const Mesh& mesh);
 
 }  // namespace dygita

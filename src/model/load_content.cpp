@@ -90,7 +90,7 @@ bool is_open(const Interface& interface) {
   return !interface.has_gap_of_geometry && interface.law->initial().gap > 0.0;
 }
 
-// Which substructures hang together or touch: the first of each group.
+// Which substructures are joined or touch: the first of each group.
 std::vector<size_t> groups_in_touch(const Problem& problem) {
   std::vector<size_t> first(problem.substructures.size());
   std::iota(first.begin(), first.end(), size_t{0});

@@ -39,7 +39,7 @@ Graph graph_of_cells(const Mesh& mesh) {
   return graph;
 }
 
-// Cells of one piece that hang together: number of each cell's lump, and the lumps' sizes.
+// Connected cells of one piece: number of each cell's lump, and the lumps' sizes.
 std::pair<std::vector<int>, std::vector<int>> lumps_of(const Graph& graph, const std::vector<int>& piece) {
   std::vector<int> lump(piece.size(), -1), sizes, stack;
   for (int seed = 0; seed < graph.n_vertices(); ++seed) {

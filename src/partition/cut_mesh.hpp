@@ -13,13 +13,13 @@ struct MeshPiece {
 };
 
 // Piece of each cell (block after block), 0 .. n - 1, none empty: about n_pieces of about the same number of nodes,
-// with few facets between them. Cells of a piece hang together by facets where those of the mesh do; a part of the mesh
+// with few facets between them. Cells of a piece are connected by facets where those of the mesh do; a part of the mesh
 // that does not is a piece of its own. The same at each call.
 // together: sets of nodes; all cells at nodes of one set are in one piece. All in one where such cells are more than a
 // quarter of the mesh.
 std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces, const std::vector<std::vector<int>>& together = {});
 
-// Number of the lump each cell belongs to: cells that hang together by facets, numbered from 0.
+// Number of the lump each cell belongs to: cells that facets connect, numbered from 0.
 std::vector<int> lump_of_cells(const Mesh& mesh);
 
 // The pieces of `piece_of_cells`; nodes, cells and their order are those of the whole.

@@ -159,6 +159,7 @@ void ContactRecorder::find_let_go(const Instant& instant) {
     LetGo found{instant.model.step, instant.model.problem->substructures[static_cast<size_t>(part)]->name, ""};
     for (const Watched& watched : watched_) {
       const Surface& surface = (*instant.model.surfaces)[static_cast<size_t>(watched.surface)];
+      if (surface.n_points() == 0) continue;
       const double nothing = rounding * std::sqrt(contacts_[watched.contact].area);
       if ((surface.part_1 != part && surface.part_2 != part) || surface.facing.gaps.minCoeff() > nothing) continue;
       double opening = 0.0;

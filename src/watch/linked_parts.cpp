@@ -14,8 +14,8 @@ LinkedParts::LinkedParts(const Problem& problem)
 void LinkedParts::link_held(const StepModel& model) {
   const auto holds = [](const auto& node) {
     const Held& held = node.second;
-    for (int j = 0; j < held.n; ++j)  // what only the program has pinned holds nothing
-      if (held.support[j] || !held.motion[j].empty()) return true;
+    for (int j = 0; j < held.n; ++j)
+      if (held.is_held(j)) return true;
     return false;
   };
   for (int part = 0; part < ground_; ++part) {

@@ -77,9 +77,8 @@ void add_part(const Instant& instant, int part, Group& group) {
   for (int node = 0; node < force.cols(); ++node)
     if (inside.is_place(node)) group.load += force.col(node);
   for (const auto& [node, held] : instant.model.conditions.held[part])
-    for (int j = 0; j < held.n; ++j)  // what only the program has pinned holds nothing
-      if (held.support[j] || !held.motion[j].empty())
-        group.held += held.directions.col(j) * held.directions.col(j).transpose();
+    for (int j = 0; j < held.n; ++j)
+      if (held.is_held(j)) group.held += held.directions.col(j) * held.directions.col(j).transpose();
 }
 
 // Without what goes along held directions.

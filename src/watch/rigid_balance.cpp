@@ -102,9 +102,8 @@ void RigidBodies::add_part(int part) {
       if (force(d, node) != 0.0) load_.segment<6>(6 * group) += force(d, node) * frame_.row(body, node, Vec3::Unit(d));
   Mat6 held = Mat6::Zero();
   for (const auto& [node, own] : instant_.model.conditions.held[static_cast<size_t>(part)])
-    for (int j = 0; j < own.n; ++j)  // what only the program has pinned holds nothing
-      if (own.support[static_cast<size_t>(j)] || !own.motion[static_cast<size_t>(j)].empty() ||
-          !body.mesh->has_cells()) {
+    for (int j = 0; j < own.n; ++j)
+      if (own.is_held(j) || !body.mesh->has_cells()) {
         const RigidMotion row = frame_.row(body, node, own.directions.col(j));
         held += row * row.transpose();
       }

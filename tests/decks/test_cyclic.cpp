@@ -27,7 +27,7 @@ double apart(const DeckRun& a, const DeckRun& b, const std::string& name, const 
 
 const std::vector<std::string> axes = {"x", "y", "z"};
 
-// Base and skin meet the cuts in lines where one of the ties would be one too many.
+// Base and skin meet the cuts in lines where one of the ties is redundant.
 TEST(Cyclic, sector_rests_as_the_ring_does) {
   for (const Settings& settings : {Settings{{"joint", "1"}, {"shock", "0"}}, Settings{{"shock", "0"}},
                                    Settings{{"shock", "0"}, {"order", "2"}}, Settings{{"shock", "0"}, {"free", "1"}}}) {
@@ -50,7 +50,7 @@ TEST(Cyclic, unlike_meshes_of_the_cuts_are_those_of_the_ring) {
   for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(whole, sector, name, axes), 1e-6);
 }
 
-// Two rings on each other under pressure: what joins them may let go where it reaches the cut, so that both cuts hold
+// Two rings on each other under pressure: what joins them may open where it reaches the cut, so that both cuts hold
 // there. All is the same around the axis, on the cut and in the middle of the sector.
 TEST(Cyclic, cuts_hold_where_a_joint_reaches_them) {
   for (const char* joint : {"contact{ friction = 0, ", "contact{ friction = 0.2, ", "bonded{ ",
@@ -153,17 +153,21 @@ problem{ name = "sector", substructures = { part }, interfaces = { cut }, steps 
   }
 }
 
-TEST(Cyclic, a_part_that_is_cut_and_not_tied_is_named) {
-  for (const char* tied : {"0", "1"}) {
-    testing::internal::CaptureStderr();
-    run_text(R"(
-local p = param{ tied = 0 }
+// wedge(name, low): an eighth of a ring of steel, of few cells, from the height `low` on.
+const std::string wedges = R"(
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local function wedge(name, low)
   return substructure{ name = name, material = steel, mesh = mesh.gmsh{ file = ")" +
-                 std::string(DYGITA_SOURCE_DIR) + R"(/meshes/wedge.geo",
+                           std::string(DYGITA_SOURCE_DIR) + R"(/meshes/wedge.geo",
     set = { low = low, high = low + 0.01, n_radial = 1, n_around = 2, n_high = 1 } }:volume "wedge" }
 end
+)";
+
+TEST(Cyclic, a_part_that_is_cut_and_not_tied_is_named) {
+  for (const char* tied : {"0", "1"}) {
+    testing::internal::CaptureStderr();
+    run_text(wedges + R"(
+local p = param{ tied = 0 }
 local low, high = wedge("low", 0), wedge("high", 0.01)
 local function cut(part) return interface.cyclic{ name = "cut of " .. part.name, between = { part:face "left", part:face "right" }, axis = { 0, 0, 1 }, n = 8 } end
 local joints = { interface.bonded{ name = "seam", between = { low:face "top", high:face "bottom" } }, cut(low) }
@@ -181,13 +185,7 @@ problem{ name = "sector", substructures = { low, high }, interfaces = joints, su
 
 TEST(Cyclic, faces_that_do_not_meet_are_refused) {
   try {
-    run_text(R"(
-local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
-local function wedge(name, low)
-  return substructure{ name = name, material = steel, mesh = mesh.gmsh{ file = ")" +
-             std::string(DYGITA_SOURCE_DIR) + R"(/meshes/wedge.geo",
-    set = { low = low, high = low + 0.01, n_radial = 1, n_around = 2, n_high = 1 } }:volume "wedge" }
-end
+    run_text(wedges + R"(
 local low, high = wedge("low", 0), wedge("high", 0.02)
 local cut = interface.cyclic{ name = "cut", between = { low:face "left", high:face "right" }, axis = { 0, 0, 1 }, n = 8 }
 local base = support.fixed{ name = "base", on = { low:face "bottom", high:face "bottom" } }
