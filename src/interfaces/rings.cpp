@@ -51,7 +51,6 @@ Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& 
   for (size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
-    if (!interface.law->is_tie()) continue;
     if (holds_always(problem, problem.interfaces[i])) holding_.insert(static_cast<int>(i));
     add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
     if (!interface.cyclic) add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
@@ -67,6 +66,7 @@ std::function<bool(const Vec3&)> Rings::closed_by(int i) const {
     const double apart = std::max((entry.low - own.high).maxCoeff(), (own.low - entry.high).maxCoeff());
     if (apart <= entry.tolerance && entry.interface != i && comes_before(entry.interface, i)) near.push_back(&entry);
   }
+  if (near.empty()) return {};
   return [this, i, near = std::move(near)](const Vec3& x) { return are_joined(i, near, x); };
 }
 

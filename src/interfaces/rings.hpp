@@ -15,8 +15,8 @@ class Rings {
  public:
   Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings);
 
-  // At x, are both sides of a tie joined by others that hold in all steps and come before it? Contact, which may open,
-  // takes no point away from a tie.
+  // At x, are both sides of an interface joined by ties that hold in all steps and come before it? Contact, which may
+  // open, leaves a point to ties, never a tie to it. Empty: nowhere.
   std::function<bool(const Vec3&)> closed_by(int i) const;
 
  private:
@@ -30,8 +30,8 @@ class Rings {
   void add(int i, const Face& face, const std::vector<Facet>& facets);
   bool are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const;
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
-  // Of ties that hold in all steps the larger; of those as large the first by the names of what it joins: in whatever
-  // order they are declared, and wherever the assembly stands. Those that are released come before none.
+  // What holds in all steps before what does not; of two that do the larger, of those as large the first by the names
+  // of what it joins: in whatever order they are declared, and wherever the assembly stands.
   bool comes_before(int i, int j) const;
   static bool has(const Entry& entry, const Vec3& x);
 

@@ -186,8 +186,9 @@ Facing turned(const CyclicSymmetry& cyclic, const Facing& met, const std::functi
   return facing;
 }
 
-// The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others:
-// tied once too often, it would not converge well (manual, eq. J5).
+// The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others,
+// and contact to ties: tied once too often, it would not converge well, and the split of its force would be one of many
+// (manual, eq. J5).
 Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
                  const Rings& rings) {
   const Interface& interface = *problem.interfaces[i];
@@ -198,7 +199,7 @@ Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<
       throw InputError(interface.origin, "interface '" + interface.name + "': " + error.what());
     }
   }
-  const auto is_taken_away = interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>();
+  const auto is_taken_away = rings.closed_by(i);
   Facing facing = meetings[i]->facing(is_taken_away);
   if (interface.cyclic) return turned(*interface.cyclic, facing, is_taken_away);
   if (interface.has_gap_of_geometry) take_gaps_of_places(problem, interface, facing);

@@ -94,7 +94,8 @@ TEST(Unjoined, what_a_bond_leaves_of_a_foot_is_named_as_it_is) {
   }
 }
 
-// What is left of the foot presses as it does where both meshes match, and nothing is told.
+// What is left of the foot presses as it does on fine meshes (32 cells along the plate, 17 along the block): with more
+// than its share of the pressure, since the foot's outer edges are its own. Nothing is told.
 TEST(Unjoined, what_a_bond_leaves_of_a_foot_can_be_joined_whatever_the_meshes) {
   const auto foot = [](const std::string& x, const std::string& plate, const std::string& block, bool is_of_plate) {
     return run_text("local x, n, m, whole = " + x + "*mm, " + plate + ", " + block + ", " +
@@ -118,10 +119,11 @@ problem{ name = "foot", substructures = { plate, block }, interfaces = { glue, r
   struct Scene {
     const char *x, *plate, *block;
     bool is_of_plate;
-    double left;  // mm^2
+    double left, refined;  // mm^2, N
   };
-  const Scene scenes[] = {{"11", "8", "4", false, 200}, {"13.5", "8", "4", false, 200}, {"11", "10", "6", false, 200},
-                          {"11", "4", "8", false, 200}, {"11", "8", "5", true, 220},    {"8", "20", "5", true, 200}};
+  const Scene scenes[] = {{"11", "8", "4", false, 200, 2105},  {"13.5", "8", "4", false, 200, 2107},
+                          {"11", "10", "6", false, 200, 2105}, {"11", "4", "8", false, 200, 2105},
+                          {"11", "8", "5", true, 220, 2183},   {"8", "20", "5", true, 200, 2143}};
   for (const Scene& scene : scenes) {
     SCOPED_TRACE(std::string(scene.x) + " " + scene.plate + " " + scene.block);
     testing::internal::CaptureStderr();
@@ -131,7 +133,7 @@ problem{ name = "foot", substructures = { plate, block }, interfaces = { glue, r
     EXPECT_NEAR(run.result->contacts.at(0).area, 1e-6 * scene.left, 1e-3 * 1e-6 * scene.left);
     const double rest = -run.column("rest", "normal").back(), glue = -run.column("glue", "normal").back();
     EXPECT_NEAR(rest + glue, 4000.0, 1e-3 * 4000.0);
-    EXPECT_NEAR(rest, 10.0 * scene.left, 0.15 * 10.0 * scene.left);
+    EXPECT_NEAR(rest, scene.refined, 0.1 * scene.refined);
   }
 }
 
