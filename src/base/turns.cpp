@@ -89,6 +89,8 @@ thread_local Turns* turns_at_hand = nullptr;
 }  // namespace
 
 struct Turns::One {
+  explicit One(const std::function<void()>& run) : body(&run) {}
+
   const std::function<void()>* body;
   turning::Stack stack{};
   turning::Place place{}, caller{};
@@ -101,7 +103,7 @@ Turns::Turns(const std::vector<std::function<void()>>& runs, const std::function
              const std::function<void(int)>& leave)
     : enter_(enter), leave_(leave) {
   for (const std::function<void()>& body : runs) {
-    all_.push_back(std::make_unique<One>(&body));
+    all_.push_back(std::make_unique<One>(body));
     One& one = *all_.back();
     CHECK(turning::is_begun(one.place.context), "a run cannot be begun");
     one.place.context.uc_stack.ss_sp = const_cast<void*>(one.place.bottom = one.stack.at());
