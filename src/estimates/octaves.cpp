@@ -64,7 +64,7 @@ void OctaveBank::Octave::add(double content2, double lag) {
   response += damping * quarter * (envelope - response);
   largest_response = std::max(largest_response, response);
   if (response < near * largest_response) return;
-  heard_phase = std::max(heard_phase, phase);
+  responding_phase = std::max(responding_phase, phase);
 }
 
 void OctaveBank::add(std::span<const double> content2) {
@@ -88,7 +88,7 @@ std::vector<OctaveBank::Lag> OctaveBank::lags(double factor) const {
   std::vector<Lag> all;
   for (size_t i = 0; i < octaves_.size(); ++i)
     all.push_back({quarter / std::exp2(i),
-                   std::min(factor * octaves_[i].heard_phase, std::numbers::sqrt2 * octaves_[i].content)});
+                   std::min(factor * octaves_[i].responding_phase, std::numbers::sqrt2 * octaves_[i].content)});
   return all;
 }
 

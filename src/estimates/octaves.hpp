@@ -51,7 +51,7 @@ class OctaveBank {
     double content = 0.0;  // largest norm so far
     // Sums of content x what it turns by in a sample, which fall with the motion that carries them: phase error, and
     // the whole turn. Now, largest so far, and the former when an oscillator's response to the octave is largest.
-    double phase = 0.0, most_phase = 0.0, heard_phase = 0.0;
+    double phase = 0.0, most_phase = 0.0, responding_phase = 0.0;
     double turned = 0.0, most_turned = 0.0;
     std::array<double, 4> last{};     // squares of contents
     std::array<double, 16> crests{};  // envelopes, of which the largest carries the errors

@@ -39,10 +39,10 @@ std::vector<char> solved_here(const Cut& cut, const Exchange& exchange) {
 }
 
 // What those who have the pieces have numbered.
-void hear_numbers(const Cut& cut, Exchange& exchange) {
+void receive_numbers(const Cut& cut, Exchange& exchange) {
   std::vector<double> numbers;
   for (const Port& port : exchange.ports) numbers.insert(numbers.end(), port.unknown.begin(), port.unknown.end());
-  hear_ports(cut, exchange, 3, numbers.data());
+  receive_ports(cut, exchange, 3, numbers.data());
   const double* number = numbers.data();
   for (Port& port : exchange.ports)
     for (int& unknown : port.unknown) unknown = static_cast<int>(*number++);
@@ -80,7 +80,7 @@ void keep_near(const Cut& cut, Exchange& exchange) {
 }
 
 // Ports of points that several ranks solve stand in the same order in each of them.
-void hear_ports(const Cut& cut, const Exchange& exchange, int width, double* values) {
+void receive_ports(const Cut& cut, const Exchange& exchange, int width, double* values) {
   const NearDirect direct = near_direct(cut, exchange);
   std::vector<int> owner;
   std::vector<std::vector<int>> readers;
@@ -106,7 +106,7 @@ void number_unknowns(const Cut& cut, bool is_all, Exchange& exchange) {
           port.unknown[d] = exchange.n_unknowns[port.piece]++;
       }
     }
-  if (!is_all && !ranks::is_alone()) hear_numbers(cut, exchange);
+  if (!is_all && !ranks::is_alone()) receive_numbers(cut, exchange);
 }
 
 }  // namespace dygita

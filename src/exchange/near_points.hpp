@@ -14,7 +14,7 @@ void keep_near(const Cut& cut, Exchange& exchange);
 
 // Collective: values of ports (`width` numbers each, of those of this exchange) of pieces elsewhere, from those who
 // have them.
-void hear_ports(const Cut& cut, const Exchange& exchange, int width, double* values);
+void receive_ports(const Cut& cut, const Exchange& exchange, int width, double* values);
 
 // Numbers the unknowns of each piece in the order of the points; not is_all: collective, of pieces elsewhere as those
 // who have them do.

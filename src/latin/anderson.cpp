@@ -22,7 +22,7 @@ void Anderson::begin() {
   has_before_ = false;
 }
 
-void Anderson::hear(const Field& q, const Field& image) {
+void Anderson::replay(const Field& q, const Field& image) {
   if (!accelerates()) return;
   q_first_ = q;
   residual_first_ = (image - q).cwiseProduct(weight_);
@@ -36,7 +36,7 @@ InterfaceSums::ToCome Anderson::first_sums(const Field& q, const Field& image) {
     residual_.segment(first, n) =
         (image.segment(first, n) - q.segment(first, n)).cwiseProduct(weight_.segment(first, n));
   });
-  return has_before_ ? recent_.sums_to_add(residual_, residual_before_) : past_.sums_to_hear(residual_);
+  return has_before_ ? recent_.sums_to_add(residual_, residual_before_) : past_.sums_to_project(residual_);
 }
 
 void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
@@ -50,7 +50,7 @@ void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
   }
   const bool is_first = !has_before_;
   const double norm =
-      std::sqrt(is_first ? past_.hear(first_sums_.data()) : recent_.add(q, q_before_, first_sums_.data()));
+      std::sqrt(is_first ? past_.project(first_sums_.data()) : recent_.add(q, q_before_, first_sums_.data()));
   first_sums_.clear();
   if (is_first) {
     q_first_ = q;

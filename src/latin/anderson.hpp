@@ -20,14 +20,14 @@ class Anderson {
   void begin();
   // Takes the first iterate of a problem whose end is known, in place of `advance`: the next one is predicted as if it
   // had been iterated.
-  void hear(const Field& q, const Field& image);
+  void replay(const Field& q, const Field& image);
   // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the
   // best.
   void advance(Eigen::Ref<Vec> q, const Field& image);
-  // The first sums that `advance` of the same will need, for who takes others at that time: told them it asks for no
+  // The first sums that `advance` of the same will need, for who takes others at that time: given them it asks for no
   // more. Nothing comes of them where the problem ends instead.
   InterfaceSums::ToCome first_sums(const Field& q, const Field& image);
-  void tell_first_sums(const double* sums, int n) { first_sums_.assign(sums, sums + n); }
+  void take_first_sums(const double* sums, int n) { first_sums_.assign(sums, sums + n); }
   int n_problems() const { return n_problems_; }
   // Relaxation alone while it is so.
   void pause(bool is_paused) { is_paused_ = is_paused; }

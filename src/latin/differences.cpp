@@ -33,7 +33,7 @@ void Differences::clear() {
   last_ = -1;
 }
 
-InterfaceSums::ToCome Differences::sums_to_hear(const Vec& residual) const {
+InterfaceSums::ToCome Differences::sums_to_project(const Vec& residual) const {
   const int n = static_cast<int>(newest_first_.size());
   return {n + 1, [this, n, &residual](Eigen::Index first, Eigen::Index size, double* to) {
             const auto own = residual.segment(first, size);
@@ -42,20 +42,20 @@ InterfaceSums::ToCome Differences::sums_to_hear(const Vec& residual) const {
           }};
 }
 
-double Differences::hear(const double* sums) {
+double Differences::project(const double* sums) {
   const int n = static_cast<int>(newest_first_.size());
   for (int i = 0; i < n; ++i) along_[newest_first_[i]] = sums[i];
   return sums[n];
 }
 
-double Differences::hear(const Vec& residual) {
-  const InterfaceSums::ToCome needed = sums_to_hear(residual);
-  return hear(sums_.add(needed.n, needed.share).data());
+double Differences::project(const Vec& residual) {
+  const InterfaceSums::ToCome needed = sums_to_project(residual);
+  return project(sums_.add(needed.n, needed.share).data());
 }
 
 // The column is taken already; it counts once `add` has put it in front.
 InterfaceSums::ToCome Differences::sums_to_add(const Vec& residual, const Vec& residual_before) {
-  if (gamma_.size() == 0) return sums_to_hear(residual);
+  if (gamma_.size() == 0) return sums_to_project(residual);
   const int at = (last_ + 1) % static_cast<int>(gamma_.size());
   std::erase(newest_first_, at);
   last_ = at;
@@ -78,7 +78,7 @@ InterfaceSums::ToCome Differences::sums_to_add(const Vec& residual, const Vec& r
 }
 
 double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const double* sums) {
-  if (gamma_.size() == 0) return hear(sums);
+  if (gamma_.size() == 0) return project(sums);
   const int n = static_cast<int>(newest_first_.size()), at = last_;
   const double length = std::sqrt(sums[2 * n + 1]), residual_size = sums[2 * n + 2];
   for (int i = 0; i < n; ++i) {
@@ -116,7 +116,7 @@ void Differences::take_off(Eigen::Ref<Vec> q, Vec& residual) {
   subtract(df_, gamma_, residual);
   const Vec first = gamma_;
   // Once more: normal equations leave behind what their rounding errors hide. They use the same pairs.
-  hear(residual);
+  project(residual);
   solve();
   subtract(df_, gamma_, residual);
   subtract(dq_, first + gamma_, q);

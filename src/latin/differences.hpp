@@ -20,15 +20,15 @@ class Differences {
   // The oldest pair goes where there is no room. A pair without a difference is not kept. Returns |residual|^2.
   double add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const Vec& residual, const Vec& residual_before);
   // The next to be taken off, where no pair comes with it. Returns |residual|^2.
-  double hear(const Vec& residual);
+  double project(const Vec& residual);
   // Both in two halves: the sums that they need, taken by the caller with others, and what follows from them. residual
   // stays what it was meanwhile.
   InterfaceSums::ToCome sums_to_add(const Vec& residual, const Vec& residual_before);
   double add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const double* sums);
-  InterfaceSums::ToCome sums_to_hear(const Vec& residual) const;
-  double hear(const double* sums);
+  InterfaceSums::ToCome sums_to_project(const Vec& residual) const;
+  double project(const double* sums);
   // q <- q - dq gamma, residual <- residual - df gamma, with gamma that leaves the least |residual|: the one last added
-  // or heard.
+  // or projected.
   void take_off(Eigen::Ref<Vec> q, Vec& residual);
 
  private:

@@ -22,10 +22,10 @@ void ConstantDirections::begin(double tolerance) {
 }
 
 // The first two are whole: where the increment starts, and what is predicted of it.
-void ConstantDirections::linear_stage(int n, bool is_told) {
+void ConstantDirections::linear_stage(int n, bool is_sent) {
   is_in_half_ = has_half_ && n > 1 && !is_whole_due_;
   is_whole_due_ = false;
-  stages_.linear_stage(step_.at.q, step_.at.velocity, is_told, is_in_half_);
+  stages_.linear_stage(step_.at.q, step_.at.velocity, is_sent, is_in_half_);
 }
 
 bool ConstantDirections::settles(const Goal& goal, const Outcome& outcome, Best& best) {
@@ -58,7 +58,7 @@ void TangentDirections::begin(double tolerance) {
 }
 
 // V comes with the data, of which there may be none.
-void TangentDirections::linear_stage(int n, bool /*is_told*/) {
+void TangentDirections::linear_stage(int n, bool /*is_sent*/) {
   if (n == 0 && step_.at.q.size() == 0) stages_.linear_stage(step_.at.q, step_.at.velocity);
   is_balanced_ |= n > 0 || step_.at.q.size() == 0;
 }

@@ -13,8 +13,8 @@ class SearchDirections {
   virtual ~SearchDirections() = default;
   // Iterations begin from the fields at hand. tolerance: of the indicator.
   virtual void begin(double tolerance) = 0;
-  // V for q, before the n-th local stage. is_told: neighbours are told both.
-  virtual void linear_stage(int n, bool is_told) = 0;
+  // V for q, before the n-th local stage. is_sent: neighbours are sent both.
+  virtual void linear_stage(int n, bool is_sent) = 0;
   // What V misses of being the answer to q, beside the indicator.
   virtual double imbalance() const { return 0.0; }
   // Near a solution: is something changed, so that the laws are to answer once more?
@@ -30,7 +30,7 @@ class ConstantDirections final : public SearchDirections {
  public:
   explicit ConstantDirections(StepData& step, Stages& stages);
   void begin(double tolerance) override;
-  void linear_stage(int n, bool is_told) override;
+  void linear_stage(int n, bool is_sent) override;
   bool settles(const Goal& goal, const Outcome& outcome, Best& best) override;
   void advance(const Outcome& outcome) override;
   Anderson& acceleration() { return anderson_; }
@@ -53,7 +53,7 @@ class TangentDirections final : public SearchDirections {
   TangentDirections(StepData& step, Stages& stages, TangentIteration& system, LooseParts* loose)
       : step_(step), stages_(stages), system_(system), loose_(loose) {}
   void begin(double tolerance) override;
-  void linear_stage(int n, bool is_told) override;
+  void linear_stage(int n, bool is_sent) override;
   double imbalance() const override { return is_balanced_ ? system_.imbalance() : 1.0; }
   bool settles(const Goal& goal, const Outcome& outcome, Best& best) override;
   void advance(const Outcome& outcome) override;

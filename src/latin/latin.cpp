@@ -19,11 +19,11 @@ void Iteration::run(SearchDirections& directions, int increment, const Goal& goa
   for (int n = 0;; ++n) {
     Told::heed_interrupt(n, is_constant ? 64 : 8);
     // Linear stage: every piece by itself; ties in balance.
-    const bool is_corrected = is_constant && corrects(n), is_told = is_constant && !is_corrected;
-    directions.linear_stage(n, is_told);
+    const bool is_corrected = is_constant && corrects(n), is_sent = is_constant && !is_corrected;
+    directions.linear_stage(n, is_sent);
     if (is_corrected) correct();
     // Local stage: the law at every interface point.
-    at.sums = stages_.local_stage(at.velocity, at.q, at.image, is_told, also);
+    at.sums = stages_.local_stage(at.velocity, at.q, at.image, is_sent, also);
     // Indicator: how far both answers are apart.
     Outcome outcome = step_.indicator.measure(at.sums);
     step_.check_finite(outcome, increment);

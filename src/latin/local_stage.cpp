@@ -265,13 +265,14 @@ InterfaceSums::ToCome LocalStage::distance_sums(const Vec& velocity, const Vec& 
 }
 
 IndicatorSums LocalStage::measure(const Vec& velocity, const Vec& q, const Vec& image,
-                                  const InterfaceSums::ToCome& also, const std::function<void(const double*)>& hear) {
+                                  const InterfaceSums::ToCome& also,
+                                  const std::function<void(const double*)>& receive) {
   const InterfaceSums::ToCome own = distance_sums(velocity, q, image);
   const std::vector<double>& sums = sums_.add(own.n + also.n, [&](Eigen::Index first, Eigen::Index n, double* to) {
     own.share(first, n, to);
     if (also.n > 0) also.share(first, n, to + own.n);
   });
-  if (also.n > 0) hear(sums.data() + own.n);
+  if (also.n > 0) receive(sums.data() + own.n);
   return distance_of(sums.data());
 }
 

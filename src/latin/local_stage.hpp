@@ -58,10 +58,10 @@ class LocalStage {
   // The sums that say how far both answers are apart, and what they say. Fields stay what they were meanwhile.
   InterfaceSums::ToCome distance_sums(const Vec& velocity, const Vec& q, const Vec& image) const;
   static IndicatorSums distance_of(const double* sums) { return {sums[0], sums[0], sums[1], sums[2]}; }
-  // How far both answers are apart; with it sums of the own unknowns that somebody else needs, which are told to
-  // hear(sums). Collective, unless every rank has all pieces.
+  // How far both answers are apart; with it sums of the own unknowns that somebody else needs, which go to
+  // receive(sums). Collective, unless every rank has all pieces.
   IndicatorSums measure(const Vec& velocity, const Vec& q, const Vec& image, const InterfaceSums::ToCome& also = {},
-                        const std::function<void(const double*)>& hear = nullptr);
+                        const std::function<void(const double*)>& receive = nullptr);
   // Accepts the fields of the last iteration: the laws move on.
   void accept() { accept(nullptr, nullptr); }
   // The same; forces, gaps, slips and works go into the state, energies of the points are added to those of the pieces

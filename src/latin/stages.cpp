@@ -9,7 +9,7 @@ Stages::Stages(StepData& step, const Vec& k)
   if (step.settings.is_assembled) system_.emplace(step.model, step.local, k, step.settings.assembly_size);
 }
 
-void Stages::linear_stage(const Vec& q, Vec& velocity, bool is_told, bool in_half) {
+void Stages::linear_stage(const Vec& q, Vec& velocity, bool is_sent, bool in_half) {
   const Stopwatch watch(step_.seconds.interface);
   if (system_) return system_->linear_stage(q, velocity);
   if (joint::is_joint()) return joint::interface_velocities(step_.model, q, velocity);  // all pieces are here
@@ -20,20 +20,20 @@ void Stages::linear_stage(const Vec& q, Vec& velocity, bool is_told, bool in_hal
     in_half ? piece.interface_velocity_in_half(data, to) : piece.interface_velocity(data, to);
   };
   step_.loops.for_each(turns_.border, answer);
-  if (is_told) step_.model.near.begin({q.data(), velocity.data()});
+  if (is_sent) step_.model.near.begin({q.data(), velocity.data()});
   step_.loops.for_each(turns_.interior, answer);
 }
 
-IndicatorSums Stages::local_stage(Vec& velocity, Vec& q, Vec& image, bool is_told, Anderson* also) {
+IndicatorSums Stages::local_stage(Vec& velocity, Vec& q, Vec& image, bool is_sent, Anderson* also) {
   const Stopwatch watch(step_.seconds.local);
   LocalStage& local = step_.local;
-  if (!is_told) step_.model.near.begin({q.data(), velocity.data()});
+  if (!is_sent) step_.model.near.begin({q.data(), velocity.data()});
   local.run_inner(velocity, q, image);
   step_.model.near.end({q.data(), velocity.data()});
   local.run_outer(velocity, q, image);
   if (!also) return local.measure(velocity, q, image);
   const InterfaceSums::ToCome first = also->first_sums(step_.own(q), step_.own(image));
-  return local.measure(velocity, q, image, first, [&](const double* sums) { also->tell_first_sums(sums, first.n); });
+  return local.measure(velocity, q, image, first, [&](const double* sums) { also->take_first_sums(sums, first.n); });
 }
 
 void Stages::answer() {

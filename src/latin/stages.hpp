@@ -15,12 +15,12 @@ class Stages {
   Stages(StepData& step, const Vec& k);
 
   // Linear stage: velocities at the interfaces for data q, every piece by itself (or all in one system). Neighbours are
-  // told both, as soon as the pieces whose data they receive have answered, where is_told. in_half: see
+  // sent both, as soon as the pieces whose data they receive have answered, where is_sent. in_half: see
   // Piece::interface_velocity_in_half.
-  void linear_stage(const Vec& q, Vec& velocity, bool is_told = false, bool in_half = false);
+  void linear_stage(const Vec& q, Vec& velocity, bool is_sent = false, bool in_half = false);
   // Local stage: the law at every interface point, with what other ranks have at theirs; image = F_hat + k W_hat.
   // Returns the distance between both stages. also: an acceleration whose first sums come with it.
-  IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image, bool is_told = false, Anderson* also = nullptr);
+  IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image, bool is_sent = false, Anderson* also = nullptr);
   // Both, for data q at hand.
   void answer();
 

@@ -28,38 +28,38 @@ void DirectPoints::find_motions(const StepModel& model, const NearDirect& near) 
   }
   complete_starts(ranks::Neighbours(owner, readers, static_cast<int>(n_start)));
   of_motions_ = ranks::Neighbours(owner, readers, static_cast<int>(n_motion));
-  told_ = std::vector<double>(n_motion * motions_.size());
+  packed_ = std::vector<double>(n_motion * motions_.size());
 }
 
 void DirectPoints::tell() {
   if (motions_.empty()) return;
   for (size_t i = 0; i < motions_.size(); ++i)
-    if (motions_[i].is_here) motions_[i].nodes->tell_motion(motions_[i].index, told_.data() + n_motion * i);
-  of_motions_.begin(told_.data());
+    if (motions_[i].is_here) motions_[i].nodes->pack_motion(motions_[i].index, packed_.data() + n_motion * i);
+  of_motions_.begin(packed_.data());
 }
 
-void DirectPoints::hear() {
+void DirectPoints::receive_motions() {
   if (motions_.empty()) return;
-  of_motions_.end(told_.data());
+  of_motions_.end(packed_.data());
   for (size_t i = 0; i < motions_.size(); ++i)
-    if (!motions_[i].is_here) motions_[i].nodes->hear_motion(motions_[i].index, told_.data() + n_motion * i);
+    if (!motions_[i].is_here) motions_[i].nodes->unpack_motion(motions_[i].index, packed_.data() + n_motion * i);
 }
 
 void DirectPoints::complete_starts(const ranks::Neighbours& of_starts) {
-  std::vector<double> told(n_start * motions_.size(), 0.0);
+  std::vector<double> packed(n_start * motions_.size(), 0.0);
   for (size_t i = 0; i < motions_.size(); ++i) {
     if (!motions_[i].is_here) continue;
-    motions_[i].nodes->tell_start(motions_[i].index, told.data() + n_start * i);
-    Eigen::Map<Mat3>(told.data() + n_start * i + 3) = motions_[i].nodes->node_compliance(motions_[i].index);
-    motions_[i].nodes->tell_motion(motions_[i].index, told.data() + n_start * i + 12);
+    motions_[i].nodes->pack_start(motions_[i].index, packed.data() + n_start * i);
+    Eigen::Map<Mat3>(packed.data() + n_start * i + 3) = motions_[i].nodes->node_compliance(motions_[i].index);
+    motions_[i].nodes->pack_motion(motions_[i].index, packed.data() + n_start * i + 12);
   }
-  of_starts.exchange(told.data());
+  of_starts.exchange(packed.data());
   for (size_t i = 0; i < motions_.size(); ++i) {
     if (motions_[i].is_here) continue;
     ExplicitNodes& distant = *motions_[i].nodes;
-    distant.hear_start(motions_[i].index, told.data() + n_start * i);
-    distant.set_compliance(motions_[i].index, Eigen::Map<const Mat3>(told.data() + n_start * i + 3));
-    distant.hear_motion(motions_[i].index, told.data() + n_start * i + 12);
+    distant.unpack_start(motions_[i].index, packed.data() + n_start * i);
+    distant.set_compliance(motions_[i].index, Eigen::Map<const Mat3>(packed.data() + n_start * i + 3));
+    distant.unpack_motion(motions_[i].index, packed.data() + n_start * i + 12);
   }
 }
 

@@ -308,7 +308,7 @@ void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
   solve_some(0, motions, most_threads);
   if (largest_of_all_.is_begun()) largest_force_ = largest_of_all_.end();
   solve_some_clusters(clusters_in_turn_[0], motions, most_threads);
-  hear();
+  receive_motions();
   solve_some(1, motions, most_threads);
   solve_some_clusters(clusters_in_turn_[1], motions, most_threads);
   for (size_t c = 0; c < clusters_.size(); ++c) {

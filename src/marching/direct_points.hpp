@@ -93,7 +93,7 @@ class DirectPoints {
     bool is_here = false;
   };
   void find_motions(const StepModel& model, const NearDirect& near);
-  void hear();
+  void receive_motions();
   void complete_starts(const ranks::Neighbours& of_starts);
   void split_points();
   void solve_some(int turn, const std::vector<double>& motions, int most_threads);
@@ -139,7 +139,7 @@ class DirectPoints {
   // Nodes that several ranks solve points at, told by those who have them.
   std::vector<Motions> motions_;
   ranks::Neighbours of_motions_;
-  std::vector<double> told_;
+  std::vector<double> packed_;
   bool has_clusters_ = false;  // anywhere
   std::vector<OwnPort> ports_;
   std::vector<Share> shares_;

@@ -55,7 +55,7 @@ Best Follow::go_over(int increment, const Goal& goal) {
     stages.linear_stage(at.q, at.velocity);
     stages.local_stage(at.velocity, at.q, at.image);
     iteration_.after_local_stage();
-    anderson.hear(step_.own(at.q), step_.own(at.image));
+    anderson.replay(step_.own(at.q), step_.own(at.image));
   }
   for (size_t i = 0; i < step_.model.pieces.size() && i < entry.moved.size(); ++i)
     if (entry.moved[i]) step_.model.pieces[i]->wake();

@@ -39,7 +39,7 @@ class Substeps final : public Increments {
   DirectPoints direct_;
   CutPulls pulls_;
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
-  PieceLoops::InTurn telling_;
+  PieceLoops::InTurn sending_;
   bool is_all_direct_;                    // of the pieces here and all points: nothing is iterated
   std::vector<std::vector<Vec3>> force_;  // N, of the surfaces' points, summed over the substeps of a time step
 };
@@ -65,7 +65,7 @@ Substeps::Substeps(Iteration& iteration, StepBooks& books)
       follow_(iteration),
       direct_(step_.model, step_.files.state),
       pulls_(step_.model),
-      telling_(step_.loops.in_turn(direct_.border_pieces())) {
+      sending_(step_.loops.in_turn(direct_.border_pieces())) {
   const StepModel& model = step_.model;
   for (const auto& piece : model.pieces) explicit_.push_back(piece->as_explicit());
   is_all_direct_ = model.n_q() == 0 && !model.problem->solver.plain &&
@@ -103,9 +103,9 @@ void Substeps::begin_substep(int increment, int substep) {
     else
       piece.begin(step_.model.piece_force(i, step_.files.state), motions, quiet);
   };
-  step_.loops.for_each(telling_.border, begin);
+  step_.loops.for_each(sending_.border, begin);
   direct_.tell();
-  step_.loops.for_each(telling_.interior, begin);
+  step_.loops.for_each(sending_.interior, begin);
   // Implicit pieces are solved for though no interface asks them.
   step_.loops.for_each_group(
       [&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
@@ -142,9 +142,9 @@ void Substeps::run_through(int increment) {
         else
           book_stored_energy(at);
       };
-      step_.loops.for_each(telling_.border, pass);
+      step_.loops.for_each(sending_.border, pass);
       if (begins) direct_.tell();
-      step_.loops.for_each(telling_.interior, pass);
+      step_.loops.for_each(sending_.interior, pass);
     }
     if (!begins) break;
     const Stopwatch laws(step_.seconds.local);
@@ -166,7 +166,7 @@ Best Substeps::solve_substep(int increment, int substep, bool is_led) {
 }
 
 void Substeps::finish_piece(Piece& piece, int i) {
-  // Explicit pieces have heard of the direct points' force from these.
+  // Explicit pieces have received the direct points' force from these.
   const bool needs_force = piece.has_motions() && (step_.model.n_q() > 0 || !explicit_[i]);
   const Points held = needs_force ? step_.local.held_force(i) : Points();
   const IncrementEnergy energy =

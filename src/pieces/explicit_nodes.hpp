@@ -39,18 +39,20 @@ class ExplicitNodes {
   }
 
   // What another rank needs of a node: in every increment D and V, once a step U_start; three numbers each.
-  void tell_motion(int node, double* to) const {
+  void pack_motion(int node, double* to) const {
     const size_t at = 4 * static_cast<size_t>(node);
     for (size_t c = 0; c < 3; ++c) to[c] = d_[at + c], to[3 + c] = v_[at + c];
   }
-  void hear_motion(int node, const double* from) {
+  void unpack_motion(int node, const double* from) {
     const size_t at = 4 * static_cast<size_t>(node);
     for (size_t c = 0; c < 3; ++c) d_[at + c] = from[c], v_[at + c] = from[3 + c];
   }
   // Of the nodes of a piece on another rank: their compliance comes from there.
   virtual void set_compliance(int /*index*/, const Mat3& /*compliance*/) {}
-  void tell_start(int node, double* to) const { std::copy_n(start_.data() + 4 * static_cast<size_t>(node), 3, to); }
-  void hear_start(int node, const double* from) { std::copy_n(from, 3, start_.data() + 4 * static_cast<size_t>(node)); }
+  void pack_start(int node, double* to) const { std::copy_n(start_.data() + 4 * static_cast<size_t>(node), 3, to); }
+  void unpack_start(int node, const double* from) {
+    std::copy_n(from, 3, start_.data() + 4 * static_cast<size_t>(node));
+  }
 
  protected:
   ~ExplicitNodes() = default;

@@ -41,7 +41,7 @@ std::vector<PortMotion> port_motions(const StepModel& model, const State& start)
     Eigen::Map<Vec3>(values.data() + n_motion * p) = motion(start.displacement[port.piece]);
     Eigen::Map<Vec3>(values.data() + n_motion * p + 3) = motion(start.velocity[port.piece]);
   }
-  if (!model.near.is_all()) hear_ports(cut, exchange, static_cast<int>(n_motion), values.data());
+  if (!model.near.is_all()) receive_ports(cut, exchange, static_cast<int>(n_motion), values.data());
   std::vector<PortMotion> motions(exchange.ports.size());
   for (size_t p = 0; p < motions.size(); ++p)
     motions[p] = {Eigen::Map<const Vec3>(values.data() + n_motion * p),

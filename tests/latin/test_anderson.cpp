@@ -63,7 +63,7 @@ TEST(Differences, take_off_what_a_qr_takes_off) {
   const Vec residual = random_vector(n, 99);
   const Vec gamma = df.colPivHouseholderQr().solve(residual);
   Vec q = zero, rest = residual;
-  differences.hear(rest);
+  differences.project(rest);
   differences.take_off(q, rest);
   EXPECT_LT((rest - (residual - df * gamma)).norm(), 1e-12 * residual.norm());
   EXPECT_LT((q + dq * gamma).norm(), 1e-10 * (dq * gamma).norm());
@@ -79,7 +79,7 @@ TEST(Differences, dependent_ones_are_left_out) {
   differences.add(f, zero, f + 1e-9 * random_vector(n, 3), zero);  // almost the first
   differences.add(f, zero, zero, zero);                            // no difference at all
   Vec q = zero, residual = 3.0 * f - 2.0 * g;
-  differences.hear(residual);
+  differences.project(residual);
   differences.take_off(q, residual);
   EXPECT_TRUE(q.allFinite());
   EXPECT_LT(residual.norm(), 1e-7);
