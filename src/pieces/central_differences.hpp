@@ -77,7 +77,6 @@ class CentralDifferences final : public ExplicitPiece {
   }
 
   bool is_tuned() const override { return setup_.tuned_speed > 0.0; }
-  bool is_coupled(int node) const override { return has_momentum(static_cast<size_t>(node)); }
   Points coupled(const Points& velocity) const override;
   void set_momenta(const Points& z) override;
 

@@ -35,10 +35,8 @@ class ExplicitPiece : public Piece, public ExplicitNodes {
   virtual bool has_held(int node) const = 0;
   virtual void add_held_force(int node, const Vec3& force) = 0;
 
-  // The tuned mass (manual, eq. S13): is there one, does it couple this node to its neighbours? C V on free directions
-  // (3 x n_nodes), and the momenta M Z.
+  // The tuned mass (manual, eq. S13): is there one? C V on free directions (3 x n_nodes), and the momenta M Z.
   virtual bool is_tuned() const = 0;
-  virtual bool is_coupled(int node) const = 0;
   virtual Points coupled(const Points& velocity) const = 0;
   virtual void set_momenta(const Points& z) = 0;
 };
