@@ -57,6 +57,32 @@ void join_both(const Substructure& part_1, PlacedBody& body_1, const Substructur
     (is_whole_1 ? body_2 : body_1).reused.insert(facet_key(facet));
 }
 
+// Of a region those with all of their corners in it.
+std::vector<Facet> facets_of(const FaceOrRegion& place) {
+  if (const Face* face = std::get_if<Face>(&place)) return face->facets();
+  const std::vector<int> nodes = nodes_at(place);
+  std::vector<Facet> facets = boundary_facets(*part_of(place).mesh);
+  std::erase_if(facets, [&](const Facet& facet) {
+    return std::any_of(facet.corners().begin(), facet.corners().end(),
+                       [&](int node) { return !std::binary_search(nodes.begin(), nodes.end(), node); });
+  });
+  return facets;
+}
+
+// Springs and sums join the places that they are on, which may well lie on each other.
+void join_places(const Support& support, const Substructure& part_1, PlacedBody& body_1, const Substructure& part_2,
+                 PlacedBody& body_2) {
+  const auto is_on = [&](const Substructure& part) {
+    return std::any_of(support.on.begin(), support.on.end(),
+                       [&](const FaceOrRegion& place) { return &part_of(place) == &part; });
+  };
+  if (!is_on(part_1) || !is_on(part_2)) return;
+  for (const FaceOrRegion& place : support.on) {
+    if (&part_of(place) == &part_1) join(body_1, facets_of(place));
+    if (&part_of(place) == &part_2) join(body_2, facets_of(place));
+  }
+}
+
 PlacedBody body_of(const Problem& problem, int part) {
   const Substructure& body = *problem.substructures[static_cast<size_t>(part)];
   return {body.mesh.get(), body.place};
@@ -257,6 +283,10 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       if (surface.part_1 == i && surface.part_2 == j) join_both(one, body_1, other, body_2, surface.facing);
       if (surface.part_1 == j && surface.part_2 == i) join_both(other, body_2, one, body_1, surface.facing);
     }
+    for (const SupportPtr& support : all_supports(problem))
+      if (!support->factors.empty())
+        join_places(*support, *problem.substructures[static_cast<size_t>(i)], body_1,
+                    *problem.substructures[static_cast<size_t>(j)], body_2);
     pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
     if (pair.neighbours.intrusion && pair.neighbours.intrusion->depth <= 1.5 * interference)
       pair.neighbours.intrusion = {};

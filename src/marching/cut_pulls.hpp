@@ -1,10 +1,10 @@
-// What pulls at the nodes on cuts of explicit substructures with a tuned mass, in each increment: that of all copies of
-// a node, before the mass of any of them spreads it to its neighbours (manual, eq. S13). So a cut changes nothing.
+// What pulls at the nodes on cuts and ties of explicit substructures with a tuned mass, in each increment: that of all
+// nodes of a group, before the mass of any of them spreads it to its neighbours (manual, eq. S13). So neither a cut nor
+// a tie changes anything.
 #pragma once
 
 #include "pieces/explicit_piece.hpp"
-#include "ranks/neighbours.hpp"
-#include "step/step_model.hpp"
+#include "step/tied_nodes.hpp"
 
 namespace dygita {
 
@@ -13,23 +13,22 @@ class CutPulls {
   explicit CutPulls(const StepModel& model);
 
   // Is there none that is here? Has this piece any?
-  bool is_empty() const { return nodes_.empty(); }
-  bool has(int piece) const { return !nodes_.empty() && concerned_[static_cast<size_t>(piece)] != 0; }
-  // Between the halves of `begin` of these pieces: each copy gets its share, by mass.
+  bool is_empty() const { return sums_.is_empty(); }
+  bool has(int piece) const { return !is_empty() && concerned_[static_cast<size_t>(piece)] != 0; }
+  // Between the halves of `begin` of these pieces: each node gets its share, by mass.
   void share(int most_threads);
 
  private:
-  struct OwnCopy {
-    ExplicitPiece* piece;  // null: on another rank
-    int node;
-    double share;  // of the node's mass
+  struct OwnNode {
+    ExplicitPiece* piece = nullptr;  // null: on another rank
+    double share = 0.0;              // of the group's mass
+    Points* to = nullptr;            // the piece's field of shares
+    Eigen::Index at = 0;             // in it
   };
 
   std::vector<char> concerned_;  // of each piece
-  std::vector<int> nodes_;       // where the copies of each begin, and their number
-  std::vector<OwnCopy> copies_;
-  ranks::Neighbours of_pulls_;
-  std::vector<double> pulls_;  // N, three a copy
+  TiedSums sums_;
+  std::vector<OwnNode> nodes_;  // of its entries
 };
 
 }  // namespace dygita

@@ -260,6 +260,13 @@ void CentralDifferences::take_momenta() {
       p[c] = keep * p[c] - y[c] / share;
     }
   }
+  // The laws that tie these nodes give them the rest.
+  for (size_t i = 0; i < sharing_.size(); ++i) {
+    const int node = sharing_[i];
+    const Vec3 pull = shared_pulls_.col(static_cast<Eigen::Index>(i));
+    Eigen::Map<Vec3>(a + 4 * static_cast<size_t>(node)) = share * inverse[node] * pull;
+    Eigen::Map<Vec3>(p + 4 * static_cast<size_t>(node)) += (pull_at(node) - pull) / share;
+  }
   for (const Special& s : specials_) {
     if (!s.has_held) continue;
     Eigen::Map<Vec3> own(a + 4 * static_cast<size_t>(s.node));

@@ -69,10 +69,14 @@ class CentralDifferences final : public ExplicitPiece {
   void begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity) override;
   void begin_pull(const std::vector<double>& load_values) override;
   void begin_motion(const std::vector<double>& motion_velocity) override { move(motion_velocity); }
-  Eigen::Map<Vec3> pull_at(int node) override { return Eigen::Map<Vec3>(y_.data() + 4 * static_cast<size_t>(node)); }
+  Vec3 pull_at(int node) const override { return Eigen::Map<const Vec3>(y_.data() + 4 * static_cast<size_t>(node)); }
+  Points& share_pulls(std::vector<int> nodes) override {
+    sharing_ = std::move(nodes);
+    shared_pulls_ = Points::Zero(3, static_cast<Eigen::Index>(sharing_.size()));
+    return shared_pulls_;
+  }
 
   bool is_tuned() const override { return setup_.tuned_speed > 0.0; }
-  bool is_coupled(int node) const override { return has_momentum(static_cast<size_t>(node)); }
   Points coupled(const Points& velocity) const override;
   void set_momenta(const Points& z) override;
 
@@ -112,7 +116,7 @@ class CentralDifferences final : public ExplicitPiece {
   // Nodes whose cells are lumped have mass times velocity; laws push them after the momenta are made.
   bool has_momentum(size_t node) const { return is_tuned() && !setup_.keeps_lumped[node]; }
   Vec3 pull_on(int node) const {  // K X - f + beta K V0, and what a tuned mass adds
-    const Vec3 pull = Eigen::Map<const Vec3>(y_.data() + 4 * static_cast<size_t>(node));
+    const Vec3 pull = pull_at(node);
     return is_tuned() ? Vec3(pull + Eigen::Map<const Vec3>(coupled_.data() + 4 * static_cast<size_t>(node))) : pull;
   }
   void update_loads(const std::vector<double>& values);
@@ -153,6 +157,8 @@ class CentralDifferences final : public ExplicitPiece {
   std::vector<double> elastic_, pull_of_motion_;
   // With a tuned mass only: M^-1 (K X - f) on free directions, C times that, momenta and those before.
   std::vector<double> free_pull_, coupled_, p_, p_old_;
+  std::vector<int> sharing_;  // nodes on cuts and ties, and what the mass spreads there in place of K X - f
+  Points shared_pulls_;
   double start_strain_ = 0.0, interval_ = 0.0;  // J, at U of the step's start; s, since the deck's time step began
 
   // Loaded nodes.

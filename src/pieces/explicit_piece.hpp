@@ -23,20 +23,20 @@ class ExplicitPiece : public Piece, public ExplicitNodes {
   // An increment, for values of all patterns of the step and velocities of the motions at its end.
   using Piece::begin;
   virtual void begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity) = 0;
-  // The same in two halves: what pulls at the nodes (N), and what it does to them. In between a node on a cut may be
-  // given its share of what pulls at all of its copies, which its neighbours feel where the mass is tuned.
+  // The same in two halves: what pulls at the nodes (N), and what it does to them. In between nodes on cuts and ties,
+  // those of `share_pulls`, are given their shares of what pulls at all that move as they do, which their neighbours
+  // feel where the mass is tuned: in every increment, in the field that it returns (3 x nodes).
   virtual void begin_pull(const std::vector<double>& load_values) = 0;
-  virtual Eigen::Map<Vec3> pull_at(int node) = 0;
+  virtual Vec3 pull_at(int node) const = 0;
+  virtual Points& share_pulls(std::vector<int> nodes) = 0;
   virtual void begin_motion(const std::vector<double>& motion_velocity) = 0;
 
   // Forces (N) of laws on held directions of a node, in the increment at hand.
   virtual bool has_held(int node) const = 0;
   virtual void add_held_force(int node, const Vec3& force) = 0;
 
-  // The tuned mass (manual, eq. S13): is there one, does it couple this node to its neighbours? C V on free directions
-  // (3 x n_nodes), and the momenta M Z.
+  // The tuned mass (manual, eq. S13): is there one? C V on free directions (3 x n_nodes), and the momenta M Z.
   virtual bool is_tuned() const = 0;
-  virtual bool is_coupled(int node) const = 0;
   virtual Points coupled(const Points& velocity) const = 0;
   virtual void set_momenta(const Points& z) = 0;
 };

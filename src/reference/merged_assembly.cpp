@@ -6,6 +6,7 @@
 #include <map>
 
 #include "numerics/spd_inverse.hpp"
+#include "step/shared_operators.hpp"
 
 namespace dygita {
 
@@ -174,6 +175,18 @@ SparseMatrix MergedAssembly::whole_matrix() const {
   return a;
 }
 
+// N/m: what stands in for that of a body without cells, whose own is zero.
+double MergedAssembly::usual_stiffness() const {
+  double sum = 0.0, of_laws = 0.0;
+  int n = 0;
+  for (const SparseMatrix& matrix : matrix_)
+    for (const double entry : matrix.diagonal().eval())
+      if (entry > 0.0) sum += entry, ++n;
+  if (n > 0) return sum / n;
+  for (const Vec3& spring : law_springs(*model_)) of_laws = std::max(of_laws, spring.maxCoeff());
+  return of_laws;
+}
+
 std::shared_ptr<const AssemblyFactor> MergedAssembly::factorise(
     SparseMatrix rows, const std::shared_ptr<const AssemblyFactor>& before) const {
   auto made = std::make_shared<AssemblyFactor>();
@@ -186,10 +199,11 @@ std::shared_ptr<const AssemblyFactor> MergedAssembly::factorise(
     for (SparseMatrix::InnerIterator entry(made->g_of_unknowns, i); entry; ++entry) is_interface[entry.col()] = 1;
   Vec reference = Vec::Zero(n_);
   SparseMatrix held = made->matrix;
+  const double of_rigid = usual_stiffness();
   for (int i = 0; i < n_; ++i)
     if (is_interface[i] && model_->scheme.is_static) {
       double& diagonal = held.coeffRef(i, i);
-      reference[i] = reference_share * diagonal;
+      reference[i] = reference_share * (diagonal > 0.0 ? diagonal : of_rigid);
       diagonal += reference[i];
     }
   const std::string what = "the assembly in step '" + model_->step->name + "'";

@@ -63,6 +63,7 @@ class MergedAssembly {
   std::shared_ptr<const AssemblyFactor> factorise(SparseMatrix rows,
                                                   const std::shared_ptr<const AssemblyFactor>& before) const;
   SparseMatrix whole_matrix() const;
+  double usual_stiffness() const;
   const Node& node(int part, int i) const { return nodes_[node_of_[part][i]]; }
   Vec3 held_velocity(int part, int i, const std::vector<double>& motions) const;
   Vec3 held_velocity(const Port& port, const std::vector<double>& motions) const;

@@ -363,6 +363,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   check_ranks(declared);
   check_problem(declared);
   check_ranks_agree(declared);
+  doubt_slow_turning(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name, asked.case_name,
                   declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
   for (const std::string& line : base_lines(declared)) say(line);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "partition/copies.hpp"
 #include "pieces/explicit_piece.hpp"
+#include "step/tied_nodes.hpp"
 
 namespace dygita {
 
@@ -14,12 +14,17 @@ using PieceFields = std::vector<Points>;
 
 class CutMomenta {
  public:
-  explicit CutMomenta(const StepModel& model) : model_(model), cut_(*model.cut), pieces_(model.pieces.size(), nullptr) {
-    for (size_t i = 0; i < pieces_.size(); ++i) {
-      const int part = cut_.piece(static_cast<int>(i)).part;
-      if (!model.solves(static_cast<int>(i)) || !cut_.is_cut(part)) continue;
-      auto* piece = model.pieces[i]->as_explicit();
-      if (piece && piece->is_tuned()) pieces_[i] = piece;
+  explicit CutMomenta(const StepModel& model) : model_(model), pieces_(model.pieces.size(), nullptr) {
+    sums_ = TiedSums(model, TiedNodes(model).groups());
+    for (const TiedSums::Entry& entry : sums_.entries())
+      if (const auto piece = static_cast<size_t>(entry.node.piece); entry.is_here)
+        pieces_[piece] = model.pieces[piece]->as_explicit();
+    for (size_t i = 0; i < pieces_.size(); ++i)
+      counts_.emplace_back(pieces_[i] ? static_cast<size_t>(pieces_[i]->node_masses().size()) : 0, 1);
+    for (size_t e = 0; e < sums_.entries().size(); ++e) {
+      const TiedSums::Entry& entry = sums_.entries()[e];
+      if (entry.is_here && !sums_.is_first(e))
+        counts_[static_cast<size_t>(entry.node.piece)][static_cast<size_t>(entry.node.node)] = 0;
     }
   }
 
@@ -40,31 +45,49 @@ class CutMomenta {
       if (pieces_[i]) fields[i] = of(static_cast<int>(i), *pieces_[i]);
     return fields;
   }
-  // Sums over the copies, at all of them.
-  PieceFields assembled(PieceFields fields) const {
-    sum_on_owners(cut_, false, fields);
-    give_to_copies(cut_, false, fields);
+  // Sums over the groups, at all of their nodes.
+  PieceFields assembled(PieceFields fields) {
+    const auto at = [&](size_t e) {
+      const TiedNode& node = sums_.entries()[e].node;
+      return fields[static_cast<size_t>(node.piece)].col(node.node);
+    };
+    sums_.sum(
+        at, [&](size_t e, const Vec3& sum) { at(e) = sum; }, 1);
+    return fields;
+  }
+  PieceFields masses() {
+    PieceFields fields =
+        each([](int, const ExplicitPiece& piece) { return Points(piece.node_masses().transpose().replicate(3, 1)); });
+    const auto at = [&](size_t e) {
+      const TiedNode& node = sums_.entries()[e].node;
+      return fields[static_cast<size_t>(node.piece)].col(node.node);
+    };
+    std::vector<double> own;
+    for (size_t e = 0; e < sums_.entries().size(); ++e) own.push_back(sums_.entries()[e].is_here ? at(e)[0] : 0.0);
+    const std::vector<double> all = sums_.sum(own);
+    for (size_t e = 0; e < all.size(); ++e)
+      if (sums_.entries()[e].is_here) at(e).setConstant(all[e]);
     return fields;
   }
   double product(const PieceFields& a, const PieceFields& b) const {
     double sum = 0.0;
     for (size_t i = 0; i < pieces_.size(); ++i)
       for (int node = 0; pieces_[i] && node < a[i].cols(); ++node)
-        if (cut_.piece(static_cast<int>(i)).owns(node)) sum += a[i].col(node).dot(b[i].col(node));
+        if (counts_[i][static_cast<size_t>(node)]) sum += a[i].col(node).dot(b[i].col(node));
     return ranks::is_alone() ? sum : ranks::shared(ranks::sums({sum}))[0];
   }
 
   const StepModel& model_;
-  const Cut& cut_;
-  std::vector<ExplicitPiece*> pieces_;  // null: not concerned
+  TiedSums sums_;
+  std::vector<ExplicitPiece*> pieces_;     // null: not concerned
+  std::vector<std::vector<char>> counts_;  // of each of their nodes: it is the one of its group that counts
 };
 
 // As a piece by itself does (ExplicitPiece::start_momentum), on the substructures.
 void CutMomenta::start() {
   if (!ranks::any(std::any_of(pieces_.begin(), pieces_.end(), [](const auto* piece) { return piece; }))) return;
   constexpr int most_products = 200;
-  const PieceFields mass = assembled(
-      each([](int, const ExplicitPiece& piece) { return Points(piece.node_masses().transpose().replicate(3, 1)); }));
+  const PieceFields mass = masses();
   const auto over_mass = [&](const PieceFields& x) {
     return each([&](int i, const ExplicitPiece&) { return Points(x[i].cwiseQuotient(mass[i])); });
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/parallel_by_cost.hpp"
@@ -24,6 +25,7 @@
 #include "step/distant_piece.hpp"
 #include "step/joint_solves.hpp"
 #include "step/shared_operators.hpp"
+#include "step/tied_nodes.hpp"
 
 namespace dygita {
 
@@ -118,36 +120,12 @@ Precision precision_of(const StepModel& model, int part, const Body& body) {
   return stored_precision(model.problem->solver, 3.0 * model.problem->substructures[part]->mesh->n_nodes());
 }
 
-// Nodes of a substructure that laws act on in the step.
-std::vector<char> nodes_with_laws(const StepModel& model, int part) {
-  std::vector<char> has_law(
-      static_cast<size_t>(model.problem->substructures[static_cast<size_t>(part)]->mesh->n_nodes()), 0);
-  const auto take = [&](const SideTrace& side) {
-    for (int i = 0; i < side.n_points(); ++i)
-      for (int k = 0; k < side.n_shares(i); ++k) has_law[static_cast<size_t>(side.share(i, k).node)] = 1;
-  };
-  for (const Surface& surface : *model.surfaces) {
-    if (!takes_part(*model.problem, *model.step, surface)) continue;
-    if (surface.part_1 == part) take(surface.facing.side_1);
-    if (surface.part_2 == part) take(surface.facing.side_2);
-  }
-  return has_law;
-}
-
-// Laws, non-reflecting supports and moving ones act on nodes that have a mass of their own. Those along a cut are as
-// others are: what pulls at their copies is added up before the mass spreads it.
-void tune_explicitly(const StepModel& model, int piece, const AbsorbingImpedance& absorbing, PieceSetup& setup) {
+void tune_explicitly(const StepModel& model, int piece, const TiedNodes& tied, PieceSetup& setup) {
   const CutPiece& own = model.cut->piece(piece);
-  const std::vector<char> has_law = nodes_with_laws(model, own.part);
   setup.tuned_speed = tuned_wave_speed(*model.problem->substructures[static_cast<size_t>(own.part)],
                                        model.conditions.held[static_cast<size_t>(own.part)]);
-  setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
   for (int node = 0; node < setup.n_nodes(); ++node)
-    setup.keeps_lumped[static_cast<size_t>(node)] =
-        has_law[static_cast<size_t>(own.node(node))] || absorbing.of_nodes.contains(own.node(node));
-  for (const auto& [node, held] : setup.held)
-    for (int j = 0; j < held.n; ++j)
-      if (!held.motion[static_cast<size_t>(j)].empty()) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
+    setup.keeps_lumped.push_back(tied.keeps_lumped(own.part)[static_cast<size_t>(own.node(node))]);
 }
 
 std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
@@ -163,6 +141,8 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
         absorbing_impedance(*model.problem, *model.step, *model.problem->substructures[part],
                             model.integration.is_explicit_piece(model.cut->first(static_cast<int>(part)))));
   const std::vector<std::vector<PortAt>> ports = ports_of_pieces(model);
+  std::optional<TiedNodes> tied;
+  if (model.has_explicit()) tied.emplace(model);
   std::vector<PieceSetup> setups(n);
   const auto set_up = [&](int at) {
     const int i = model.here[at];
@@ -178,7 +158,7 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     setup.what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") +
                  "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
     if (model.integration.is_explicit_piece(i) && model.integration.parts[static_cast<size_t>(part)].is_tuned)
-      tune_explicitly(model, i, absorbing[part], setup);
+      tune_explicitly(model, i, *tied, setup);
     setup.precision = precision_of(model, part, bodies[i]);
     if (model.scheme.is_static) setup.n_products = usual_iterations * model.step->increments;
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.

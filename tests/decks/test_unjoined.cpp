@@ -181,6 +181,35 @@ TEST(Unjoined, parts_that_an_interface_keeps_apart_are_not_named) {
   EXPECT_TRUE(said_of_check(text, "touch on").empty());
 }
 
+// The whole of the block's foot, or half of it, is on a spring, an equation or a mean of motions; 200 mm^2 are left.
+TEST(Unjoined, places_that_springs_and_sums_join_are_not_named_and_what_they_leave_is) {
+  const auto said = [](const std::string& joint) {
+    return said_of_check(blocks_at("{ 10*mm, 10*mm, 10*mm }", R"(
+local function half(part) return part:face{ normal = { 0, 0, part == plate and 1 or -1 }, low = { 9.9*mm, 9.9*mm, 9.9*mm }, high = { 20.1*mm, 30.1*mm, 10.1*mm } } end
+local function under(part) return part:where(function(x, y, z) return near(z, 10*mm) and x > 9.9*mm and x < 30.1*mm and y > 9.9*mm and y < 30.1*mm end) end
+)" + joint),
+                         "touch on");
+  };
+  const std::string spring = ", x = 1e7, y = 1e7, z = 1e7, about_x = 100, about_y = 100, about_z = 100 })";
+  for (const std::string on : {"{ plate:face 'zmax', block:face 'zmin' }", "{ under(plate), under(block) }"}) {
+    EXPECT_TRUE(said("table.insert(supports, support.spring{ name = 'spring', on = " + on + spring).empty()) << on;
+    EXPECT_TRUE(said("table.insert(supports, support.equation{ name = 'sum', on = " + on +
+                     ", x = true, y = true, z = true, factors = { 1, -1 } })")
+                    .empty())
+        << on;
+  }
+  EXPECT_TRUE(
+      said("interfaces = { interface.bonded{ name = 'mean', between = { plate:face 'zmax', block:face 'zmin' }, "
+           "motion = 'mean' } }")
+          .empty());
+  const std::vector<std::string> left =
+      said("table.insert(supports, support.spring{ name = 'spring', on = { half(plate), half(block) }" + spring);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_NE(left[0].find("touch on 200 mm^2 without an interface"), std::string::npos) << left[0];
+  // A spring to the ground, or to a third part, joins nothing.
+  EXPECT_EQ(said("table.insert(supports, support.spring{ name = 'spring', on = block:face 'zmin'" + spring).size(), 1u);
+}
+
 // A row of two tied blocks slides along another: across the seam a block is not in the one beside that below it.
 TEST(Unjoined, parts_that_slide_over_the_seam_of_tied_ones_are_not_named) {
   EXPECT_TRUE(said_of_run(R"(
