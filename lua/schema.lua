@@ -537,7 +537,7 @@ words[4] = {
     arguments = {
       name_of "interface",
       { "between", type = "between", kinds = { "face" }, exactly = 2, required = true,
-        doc = "the two cut faces; the first, whose mesh should be the coarser one, is side 1, on which resultants are counted" },
+        doc = "the two cut faces; the first is side 1, on which resultants are counted" },
       { "axis", in_frame = "direction", type = "vector", required = true, doc = "direction of the ring's axis; its length does not matter" },
       { "through", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
       { "n", type = "integer", range = { 2, 10000 }, required = true, doc = "sectors of the whole ring" },

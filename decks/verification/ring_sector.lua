@@ -9,12 +9,13 @@
 --            --set fine=3 (cells of the base across, on its left half alone: meshes of the cut faces differ)
 --            --set joint=1 (a bonded rib) --set order=2 --set free=1 (held along z alone) --set shock=0 (static alone)
 -- See        out/ring_sector/base/ring_sector.pvd
+--            --set swap=1 (the cut faces of the base in the other order: the same figures)
 --            --set modes=6 (those in which all sectors move alike)
 -- Expect     displacements, spectra and modes of the ring, to the tolerance of the iteration
 -- Read next  manual/howto/interfaces.md
 -- Mesh       meshes/wedge.geo
 
-local p = param{ whole = 0, n = 8, across = 2, fine = 0, joint = 0, order = 1, free = 0, shock = 1, modes = 0 }
+local p = param{ whole = 0, n = 8, across = 2, fine = 0, joint = 0, order = 1, free = 0, shock = 1, modes = 0, swap = 0 }
 local n, sector = math.tointeger(p.n), 360 / p.n
 local axis = { 0, 0, 1 }
 
@@ -58,7 +59,7 @@ if p.whole == 1 then
   end
 else
   local left, right = base[1].left:face "left", base[1].right:face "right"
-  if p.fine > p.across then left, right = right, left end  -- the coarser first
+  if p.swap == 1 then left, right = right, left end
   cut[1] = join("cyclic", "cut 1", left, right, { axis = axis, n = n })
   cut_of_skin[1] = join("cyclic", "cut of skin 1", skin[1]:face "left", skin[1]:face "right", { axis = axis, n = n })
 end

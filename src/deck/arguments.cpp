@@ -131,10 +131,14 @@ std::array<Vec3, 2> LuaArguments::two_vectors_at(const char* key, const Vec3& x)
   return vectors;
 }
 
-double LuaArguments::number_at(const char* key, const Vec3& x) const {
+double LuaArguments::number_at(const char* key, const Vec3& x, const bool& has_none) const {
   push(key);
   for (const double coordinate : x) lua_pushnumber(L_, coordinate);
-  lua_call(L_, 3, 1);
+  if (lua_pcall(L_, 3, 1, 0) != LUA_OK) {
+    if (!has_none) lua_error(L_);
+    lua_pop(L_, 1);
+    return NAN;
+  }
   const bool is_right = lua_type(L_, -1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L_, -1));
   const double value = lua_tonumber(L_, -1);
   lua_pop(L_, 1);

@@ -50,8 +50,8 @@ class LuaArguments : public ModelArguments {
   std::map<std::string, double> plain_numbers() const;  // every argument that is a number, or true (1) or false (0)
   // What the deck's function answers at a place (m). Throws InputError where it is not two lists of three numbers.
   std::array<Vec3, 2> two_vectors_at(const char* key, const Vec3& x) const;
-  // The same of one number, finite.
-  double number_at(const char* key, const Vec3& x) const;
+  // The same of one number, finite; NaN where the function fails and has set has_none.
+  double number_at(const char* key, const Vec3& x, const bool& has_none) const;
   const Object& object(const char* key) const;
   std::vector<const Object*> objects(const char* key) const;  // one alone counts as a list
   // The file that an argument names; relative paths start at the deck's folder. Throws InputError if there is none.

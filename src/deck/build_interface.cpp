@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
@@ -143,33 +144,44 @@ void add_compliance(const Declaration& d, const Interface& interface, std::map<s
   }
 }
 
-// The gap that a function of the deck adds at the nodes of both sides (m), and what it is like on the first.
-void set_form(const Declaration& d, Interface& interface) {
+// The gap (m) that a function of the deck adds at a place; NaN where a scan in it has no point: it need only have them
+// where the faces meet (gaps_of_places.cpp).
+double form_at(const Declaration& d, const Interface& interface, const Vec3& x) {
   constexpr double most = 0.01;
-  double least = 1e300, largest = -1e300, sum = 0.0, area = 0.0;
+  DeckState& state = DeckState::of(d.lua);
+  state.has_missed_scan = false;
+  const double gap = d.arguments.number_at("gap", x, state.has_missed_scan);
+  if (std::abs(gap) > most)
+    throw InputError(d.origin, fmt::format("{} '{}': 'gap' is {:g} mm at ({:g}, {:g}, {:g}) m, and gaps are below {:g} "
+                                           "mm\n    the function answers in m: was a unit forgotten?",
+                                           d.path, interface.name, 1e3 * gap, x[0], x[1], x[2], 1e3 * most));
+  return gap;
+}
+
+// The same at the nodes of both sides, and what it is like on the first that has it.
+void set_form(const Declaration& d, Interface& interface) {
+  bool is_told = false;
   for (const int side : {0, 1}) {
     const Face& face = side == 0 ? interface.side_1 : interface.side_2;
     const FaceNodes of_face = face_nodes(*face.part->mesh, face.facets());
+    const auto place = [&](size_t i) -> Vec3 {
+      return face.part->mesh->nodes.col(of_face.nodes[i]) + face.part->place;
+    };
+    double least = 1e300, largest = -1e300, sum = 0.0, area = 0.0;
     for (size_t i = 0; i < of_face.nodes.size(); ++i) {
-      const Vec3 x = face.part->mesh->nodes.col(of_face.nodes[i]) + face.part->place;
-      const double gap = d.arguments.number_at("gap", x);
-      if (std::abs(gap) > most)
-        throw InputError(
-            d.origin, fmt::format("{} '{}': 'gap' is {:g} mm at ({:g}, {:g}, {:g}) m, and gaps are below {:g} mm\n    "
-                                  "the function answers in m: was a unit forgotten?",
-                                  d.path, interface.name, 1e3 * gap, x[0], x[1], x[2], 1e3 * most));
-      interface.form[static_cast<size_t>(side)][of_face.nodes[i]] = gap;
-      if (side == 1) continue;
+      const double gap = interface.form[static_cast<size_t>(side)][of_face.nodes[i]] = form_at(d, interface, place(i));
+      if (std::isnan(gap)) continue;
       const double own = of_face.areas[static_cast<Eigen::Index>(i)];
       least = std::min(least, gap);
       largest = std::max(largest, gap);
       sum += own * gap;
       area += own;
     }
+    if (area > 0.0 && !std::exchange(is_told, true))
+      say(fmt::format("{} '{}': 'gap' adds {:.4g} to {:.4g} um, {:.4g} um on average", d.path, interface.name,
+                      1e6 * least, 1e6 * largest, 1e6 * sum / area));
+    if (side == 1 && !is_told) d.arguments.number_at("gap", place(0), false);  // says where the scan has no point
   }
-  if (area > 0.0)
-    say(fmt::format("{} '{}': 'gap' adds {:.4g} to {:.4g} um, {:.4g} um on average", d.path, interface.name,
-                    1e6 * least, 1e6 * largest, 1e6 * sum / area));
 }
 
 void refuse_one_face(const Declaration& d, const Interface& interface) {
@@ -219,7 +231,6 @@ Content build_cyclic(const Declaration& d) {
   const std::vector<const Object*> sides = d.arguments.objects("between");
   interface->side_1 = sides[0]->as<Face>();
   interface->side_2 = sides[1]->as<Face>();
-  interface->points = Carrier::first;
   refuse_one_face(d, *interface);
   interface->law = make_law("bonded", {});
   const auto vector = [&](const char* key) -> Vec3 { return Vec3(d.arguments.numbers(key).data()); };

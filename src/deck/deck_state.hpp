@@ -38,6 +38,7 @@ struct DeckState : LuaState {
   std::set<std::string> steps_told;
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called
+  bool has_missed_scan = false;  // a place was asked of a scan that has no point there
   bool has_read_hollow = false;  // the deck has read a value that was not computed
 };
 

@@ -259,9 +259,10 @@ int scan(LuaState& lua, lua_State* L) {
 }
 
 // height_of(scan, u, v): m; nothing where there is no point near.
-int height_of(LuaState&, lua_State* L) {
+int height_of(LuaState& lua, lua_State* L) {
   const auto height =
       the_object_at(L, 1).as<std::shared_ptr<const Scan>>()->at(luaL_checknumber(L, 2), luaL_checknumber(L, 3));
+  DeckState::of(lua).has_missed_scan = !height;
   if (!height) return 0;
   lua_pushnumber(L, *height);
   return 1;

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/log.hpp"
@@ -19,6 +20,26 @@ std::string describe(const RigidMotion& motion) {
   int largest = 0;
   motion.cwiseAbs().maxCoeff(&largest);
   return names[largest];
+}
+
+// The turn of a sector about the axis of its ring, which, seen from the sector's middle, is a translation above all.
+std::optional<RigidMotion> turn_of_ring(const Problem& problem, const RigidFrame& frame) {
+  for (const InterfacePtr& interface : problem.interfaces) {
+    if (!interface->cyclic) continue;
+    RigidMotion turn;
+    turn << interface->cyclic->along.cross(frame.centre - interface->cyclic->through),
+        frame.size * interface->cyclic->along;
+    return turn.normalized();
+  }
+  return {};
+}
+
+constexpr double nearly_all = 0.99;  // of a motion, that it is another
+
+std::string describe(const Problem& problem, const RigidFrame& frame, const RigidMotion& motion) {
+  const auto turn = turn_of_ring(problem, frame);
+  const bool is_turn = turn && std::abs(turn->dot(motion)) > nearly_all * motion.norm();
+  return is_turn ? "rotation about the axis of the ring" : describe(motion);
 }
 
 // Blocks of 6 x 6, of each body and of each two that a constraint joins.
@@ -263,15 +284,21 @@ std::pair<int, double> most_driven(const Vec& driven) {
 }
 
 // Names for as many motions as a body (6 x n) has: those that they are nearest to.
-std::vector<std::string> names_of(const Mat& motions) {
+std::vector<std::string> names_of(const Problem& problem, const RigidFrame& frame, const Mat& motions) {
   Mat left = orthonormal(motions);
   std::vector<std::string> names;
-  for (Eigen::Index m = 0; m < motions.cols(); ++m) {
+  const auto take = [&](const Vec& taken, const std::string& name) {
+    names.push_back(name);
+    left -= (left * taken) * taken.transpose();
+  };
+  if (const auto turn = turn_of_ring(problem, frame)) {
+    const Vec share = left.transpose() * *turn;
+    if (share.norm() > nearly_all) take(share.normalized(), describe(problem, frame, *turn));
+  }
+  while (static_cast<Eigen::Index>(names.size()) < motions.cols()) {
     int nearest = 0;
     left.rowwise().squaredNorm().maxCoeff(&nearest);
-    names.push_back(describe(RigidMotion::Unit(nearest)));
-    const Vec taken = left.row(nearest).transpose().normalized();
-    left -= (left * taken) * taken.transpose();
+    take(left.row(nearest).transpose().normalized(), describe(RigidMotion::Unit(nearest)));
   }
   return names;
 }
@@ -346,7 +373,8 @@ void check_unloaded(const Problem& problem, const Step& step, const FreeMotions&
   throw InputError(
       step.origin,
       fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support or interface holds it",
-                  step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
+                  step.name, describe(problem, free.frames[static_cast<size_t>(part)], driven.segment<6>(6 * part)),
+                  problem.substructures[part]->name) +
           what_lets_go(problem, *problem.substructures[part]) +
           (free.whole.cols() > 0 ? "\n    nothing holds the assembly: add a support, or step.static{ inertia_relief = "
                                    "true }, and the loads accelerate it"
@@ -383,7 +411,8 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   // Of a sector they are those of its ring, and inertia opposes the loads along them.
   const auto is_cyclic = [](const InterfacePtr& interface) { return interface->cyclic.has_value(); };
   if (step.inertia_relief && std::any_of(problem.interfaces.begin(), problem.interfaces.end(), is_cyclic)) return;
-  for (const auto& [part, all] : unconstrained) names[part] = names_of(all);
+  for (const auto& [part, all] : unconstrained)
+    names[part] = names_of(problem, motions.frames[static_cast<size_t>(part)], all);
   warn_of_unconstrained(problem, step, names);
 }
 

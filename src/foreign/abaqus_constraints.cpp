@@ -22,7 +22,7 @@ std::string place_of(ForeignModel& model, const std::string& prefix, const DataL
 
 AbaqusConstraints::AbaqusConstraints(AbaqusModel& model) : model_(model), file_(model.file()) { find_loose_ends(); }
 
-void AbaqusConstraints::read(const PlacedCard& placed, const std::set<int>& turned) {
+void AbaqusConstraints::read(const PlacedCard& placed, const std::map<int, Mat3>& turned) {
   turned_ = turned;
   if (placed.card->keyword == "EQUATION") return read_equations(placed);
   if (placed.card->keyword == "MPC") return read_constraints(placed);
@@ -68,16 +68,20 @@ void AbaqusConstraints::add_equation(const PlacedCard& placed, const DataLine& f
   std::map<int, Vec3> of_nodes;
   std::set<std::pair<int, long>> seen;
   std::set<long> axes;
+  constexpr double rounding = 1e-12;
   for (size_t i = 0; i < given.size(); i += 3) {
     const LineFields fields(file_, *given[i].first);
     const long d = fields.whole_of(given[i + 1].second, "a direction");
     if (d < 1 || d > 3) fields.fail(fmt::format("*EQUATION: direction {}: displacements are 1 to 3", d));
-    axes.insert(d - 1);
     const std::vector<int> nodes = model_.nodes_of(*placed.scope, fields, given[i].second);
     if (nodes.size() != 1) fields.fail("*EQUATION: each term is of one node");
-    if (turned_.contains(nodes[0])) fields.fail("*EQUATION: in axes of *TRANSFORM");
     if (!seen.emplace(nodes[0], d).second) fields.fail("*EQUATION: a node twice along one axis");
-    of_nodes.try_emplace(nodes[0], Vec3::Zero()).first->second[d - 1] = fields.real_of(given[i + 2].second, "a factor");
+    const auto own = turned_.find(nodes[0]);
+    const Vec3 axis = own == turned_.end() ? Vec3(Vec3::Unit(d - 1)) : Vec3(own->second.col(d - 1));
+    for (long k = 0; k < 3; ++k)
+      if (std::abs(axis[k]) > rounding) axes.insert(k);
+    of_nodes.try_emplace(nodes[0], Vec3::Zero()).first->second +=
+        fields.real_of(given[i + 2].second, "a factor") * axis;
   }
   if (axes.size() > 1) return add_along_axes(first, of_nodes);
   Terms terms;

@@ -33,8 +33,8 @@ class AbaqusConstraints {
  public:
   explicit AbaqusConstraints(AbaqusModel& model);
 
-  // *EQUATION, *MPC or *SPRING. turned: nodes in axes of *TRANSFORM. Throws InputError with the line.
-  void read(const PlacedCard& placed, const std::set<int>& turned);
+  // *EQUATION, *MPC or *SPRING. turned: axes of the nodes of *TRANSFORM. Throws InputError with the line.
+  void read(const PlacedCard& placed, const std::map<int, Mat3>& turned);
   // Ends of springs that are of no cell are no nodes of a deck: what is held of them is the ground. Are these all such?
   bool hold_ends(const std::array<double, 6>& says, const std::vector<int>& nodes);
   // The springs, once everything is read.
@@ -73,7 +73,7 @@ class AbaqusConstraints {
 
   AbaqusModel& model_;
   const CardFile& file_;
-  std::set<int> turned_;
+  std::map<int, Mat3> turned_;  // axes of nodes
   std::set<int> loose_ends_;
   std::map<int, std::array<bool, 3>> held_ends_;
   std::map<std::pair<int, int>, std::vector<int>> ends_as_means_;  // by node and axis

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/error.hpp"
@@ -181,9 +182,38 @@ class AnalysisReader {
   }
 
   void note_transform(const PlacedCard& placed) {
-    const std::string set = placed.card->option("NSET");
-    const DataLine line{set, placed.card->file, placed.card->line};
-    for (const int node : model_.nodes_of(*placed.scope, LineFields(file_, line), set)) turned_.insert(node);
+    const FileCard& card = *placed.card;
+    const std::string set = card.option("NSET"), type = in_capitals(card.option("TYPE"));
+    if (!type.empty() && type != "R" && type != "C") return leave(card, "TYPE = " + type);
+    if (card.data.empty()) file_.fail(card, "it has no line with two points");
+    LineFields fields(file_, card.data[0]);
+    std::array<Vec3, 2> points;
+    for (Vec3& point : points)
+      for (double& x : point) x = fields.real("a coordinate");
+    const DataLine line{set, card.file, card.line};
+    for (const int node : model_.nodes_of(*placed.scope, LineFields(file_, line), set))
+      turned_[node] = axes_of(card, type == "C", points, model_.model().nodes[static_cast<size_t>(node)]);
+  }
+
+  // Axes of a node. R: the first through a point, in a plane with another; C: from a line through two outwards, around
+  // it, along it.
+  Mat3 axes_of(const FileCard& card, bool is_cylinder, const std::array<Vec3, 2>& points, const Vec3& x) const {
+    constexpr double nothing = 1e-9;
+    Mat3 axes;
+    if (is_cylinder) {
+      axes.col(2) = (points[1] - points[0]).normalized();
+      axes.col(0) = x - points[0] - axes.col(2).dot(x - points[0]) * axes.col(2);
+      if (!(axes.col(0).norm() > nothing * (x - points[0]).norm())) file_.fail(card, "a node on the axis has no axes");
+    } else {
+      axes.col(0) = points[0].normalized();
+      axes.col(2) = points[0].cross(points[1]);
+      if (!(axes.col(2).norm() > nothing * points[0].norm() * points[1].norm()))
+        file_.fail(card, "its two points are on one line");
+    }
+    axes.col(0).normalize();
+    axes.col(2).normalize();
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    return axes;
   }
 
   // The OP of a card, which holds for its kind in the step.
@@ -203,10 +233,56 @@ class AnalysisReader {
   void note(Sayings& sayings, const PlacedCard& placed, const DataLine& line, std::string_view field,
             const std::array<double, 6>& says) {
     std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), field);
+    if (note_turned(sayings, placed, line, says, nodes)) return;
     if (placed.card->keyword == "BOUNDARY" && analysis_.steps.empty() && constraints_.hold_ends(says, nodes)) return;
     const std::string set = is_whole(field) || !placed.scope->instance.empty() ? "" : std::string(field);
     Listed& listed = sayings.try_emplace({set, says}, Listed{line, set, {}}).first->second;
     listed.nodes.insert(listed.nodes.end(), nodes.begin(), nodes.end());
+  }
+
+  // The same of nodes in axes of *TRANSFORM, if there are any: along the axes of the file.
+  bool note_turned(Sayings& sayings, const PlacedCard& placed, const DataLine& line, const std::array<double, 6>& says,
+                   const std::vector<int>& nodes) {
+    const auto is_turned = [&](int node) { return turned_.contains(node); };
+    const Vec3 by(says[3], says[4], says[5]);
+    const bool is_held = placed.card->keyword == "BOUNDARY", is_whole = says[0] != 0 && says[1] != 0 && says[2] != 0;
+    if (std::none_of(nodes.begin(), nodes.end(), is_turned) || (is_held && is_whole && by.isZero(0.0))) return false;
+    for (const int node : nodes) {
+      const Mat3 axes = is_turned(node) ? turned_.at(node) : Mat3(Mat3::Identity());
+      const auto turned = is_held ? held_in(axes, says, placed, line) : forced_in(axes, by);
+      sayings.try_emplace({"", turned}, Listed{line, "", {}}).first->second.nodes.push_back(node);
+    }
+    return true;
+  }
+
+  static std::array<double, 6> forced_in(const Mat3& axes, const Vec3& by) {
+    constexpr double rounding = 1e-12;
+    const Vec3 force = axes * by;
+    std::array<double, 6> says{};
+    for (int d = 0; d < 3; ++d)
+      if (std::abs(force[d]) > rounding * force.norm())
+        says[static_cast<size_t>(d)] = 1, says[static_cast<size_t>(d) + 3] = force[d];
+    return says;
+  }
+
+  // What is held along some axes, where these, or what they leave free, are axes of the file.
+  std::array<double, 6> held_in(const Mat3& axes, const std::array<double, 6>& own, const PlacedCard& placed,
+                                const DataLine& line) const {
+    constexpr double close = 1e-9;
+    Mat3 held = Mat3::Zero();
+    for (int d = 0; d < 3; ++d)
+      if (own[static_cast<size_t>(d)] != 0) held += axes.col(d) * axes.col(d).transpose();
+    const Vec3 by = axes * Vec3(own[3], own[4], own[5]);
+    std::array<double, 6> says{};
+    for (int d = 0; d < 3; ++d) {
+      const auto i = static_cast<size_t>(d);
+      says[i] = held(d, d) > 0.5 ? 1 : 0;
+      says[i + 3] = says[i] != 0 && std::abs(by[d]) > close * by.norm() ? by[d] : 0.0;
+      if ((held.col(d) - says[i] * Vec3::Unit(d)).norm() > close)
+        throw InputError(fmt::format("{}: {}: a node is held along axes of *TRANSFORM that are none of the file's",
+                                     file_.where(line.file, line.line), placed.card->written));
+    }
+    return says;
   }
 
   std::string name_of_set(const PlacedCard& placed, const std::string& set) {
@@ -215,6 +291,7 @@ class AnalysisReader {
   }
 
   void add_actions(const PlacedCard& placed, FileAction::Kind kind, const std::string& prefix, const Sayings& sayings) {
+    std::map<std::pair<int, int>, int> of_line;
     for (const auto& [key, listed] : sayings) {
       const auto& says = key.second;
       FileAction action{kind, "", {says[3], says[4], says[5]}, {says[0] != 0, says[1] != 0, says[2] != 0}, "", "", 0};
@@ -222,12 +299,12 @@ class AnalysisReader {
       action.stays = placed.card->has("FIXED");
       action.where = file_.where(listed.line.file, listed.line.line);
       action.amplitude = placed.card->option("AMPLITUDE");
-      const bool is_whole_node = action.kind == FileAction::Kind::held && action.along == Mask{true, true, true};
-      for (const int node : listed.nodes)
-        if (turned_.contains(node) && !is_whole_node)
-          throw InputError(fmt::format("{}: {}: in axes of *TRANSFORM", action.where, placed.card->written));
       action.place = listed.set.empty() ? "" : name_of_set(placed, listed.set);
-      if (action.place.empty()) action.place = place_of(model_.model(), prefix, listed.line, listed.nodes);
+      if (action.place.empty()) {
+        const int n = ++of_line[{listed.line.file, listed.line.line}];  // sayings in axes of *TRANSFORM
+        action.place =
+            place_of(model_.model(), n == 1 ? prefix : fmt::format("{} ({})", prefix, n), listed.line, listed.nodes);
+      }
       std::set<int> once(listed.nodes.begin(), listed.nodes.end());
       action.n_nodes = static_cast<int>(once.size());
       actions().push_back(action);
@@ -446,8 +523,8 @@ class AnalysisReader {
   AbaqusModel& model_;
   const CardFile& file_;
   AbaqusAnalysis analysis_;
-  bool is_sector_ = false;  // of a ring
-  std::set<int> turned_;    // nodes in axes of *TRANSFORM
+  bool is_sector_ = false;      // of a ring
+  std::map<int, Mat3> turned_;  // axes of the nodes of *TRANSFORM
   AbaqusConstraints constraints_;
 };
 

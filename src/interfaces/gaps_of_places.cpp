@@ -3,6 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
 
 #include "base/warnings.hpp"
 #include "meeting/round_surfaces.hpp"
@@ -11,13 +14,36 @@ namespace dygita {
 
 namespace {
 
-// What the deck adds to the gaps of the places, by the nodes that the points move with.
+// What the deck adds to the gap of a point, by the nodes of one side that the point moves with; NaN: a scan does not
+// reach some of them.
+double form_of(const std::unordered_map<int, double>& form, const SideTrace& side, int i) {
+  constexpr double nothing = 1e-12;
+  double sum = 0.0;
+  for (int k = 0; k < side.n_shares(i); ++k)
+    if (const auto& share = side.share(i, k); std::abs(share.weight) > nothing)
+      sum += share.weight * form.at(share.node);
+  return sum;
+}
+
+// By the nodes of the side that carries the points, or, where a scan does not reach these, by those of the other.
 void add_form(const Interface& interface, Facing& facing) {
-  const auto& form = interface.form[facing.carrier == 2 ? 1 : 0];
-  const SideTrace& side = facing.carrier == 2 ? facing.side_2 : facing.side_1;
-  for (int i = 0; i < facing.n_points() && !form.empty(); ++i)
-    for (int k = 0; k < side.n_shares(i); ++k)
-      facing.gaps[i] += side.share(i, k).weight * form.at(side.share(i, k).node);
+  if (interface.form[0].empty()) return;
+  const std::array<const SideTrace*, 2> sides = {&facing.side_1, &facing.side_2};
+  const size_t own = facing.carrier == 2 ? 1 : 0;
+  for (int i = 0; i < facing.n_points(); ++i) {
+    double gap = form_of(interface.form[own], *sides[own], i);
+    if (std::isnan(gap)) gap = form_of(interface.form[1 - own], *sides[1 - own], i);
+    if (std::isnan(gap)) {
+      const Vec3 x = facing.places.col(i);
+      throw InputError(
+          interface.origin,
+          fmt::format("interface '{}': the scan in 'gap' has no point near ({:g}, {:g}, {:g}) mm, where '{}' and '{}' "
+                      "meet\n    a place is seen within `smooth` of a point: is `unit`, `plane` or `frame` another?",
+                      interface.name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], interface.side_1.label(),
+                      interface.side_2.label()));
+    }
+    facing.gaps[i] += gap;
+  }
 }
 
 std::string who(const Interface& interface) {

@@ -51,6 +51,7 @@ Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& 
   for (size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
+    if (meetings[i]->matches()) matching_.insert(static_cast<int>(i));
     if (holds_always(problem, problem.interfaces[i])) holding_.insert(static_cast<int>(i));
     add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
     if (!interface.cyclic) add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
@@ -96,7 +97,8 @@ bool Rings::are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x
   return reaches(own.side_1.part.get(), own.side_2.part.get(), joined);
 }
 
-// The same of the cut faces of a sector: parts at x, on the first of them, and where x came from, on the second.
+// The same of the cut faces of a sector: parts at x, on the first of them, and where x came from, on the second. Where
+// nodes meet, no cut of unlike meshes implies their ties: they stay, as those of the whole ring do.
 bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const {
   using Place = std::pair<const Substructure*, int>;
   const Vec3 opposite = cyclic.through + cyclic.turn.transpose() * (x - cyclic.through);
@@ -104,13 +106,14 @@ bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x
   for (const Entry& entry : entries_) {
     if (entry.interface == i || !comes_before(entry.interface, i)) continue;
     const Interface& other = *problem_.interfaces[static_cast<size_t>(entry.interface)];
+    if (other.cyclic && matching_.contains(i) && !matching_.contains(entry.interface)) continue;
     const Substructure *a = other.side_1.part.get(), *b = other.side_2.part.get();
     for (const int cut : {1, 2}) {
       if (!has(entry, cut == 1 ? x : opposite)) continue;
       if (!other.cyclic)
         joined.push_back({{a, cut}, {b, cut}});
-      else if (cut == 1)
-        joined.push_back({{a, 1}, {b, 2}});
+      else if (other.cyclic->turn.isApprox(cut == 1 ? cyclic.turn : Mat3(cyclic.turn.transpose())))
+        joined.push_back({{a, cut}, {b, 3 - cut}});
     }
   }
   const Interface& own = *problem_.interfaces[static_cast<size_t>(i)];

@@ -38,6 +38,7 @@ class Rings {
   const Problem& problem_;
   std::vector<Entry> entries_;  // side after side of the interfaces, in their order
   std::set<int> holding_;       // ties in all steps
+  std::set<int> matching_;      // node for node
   std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
 };
 

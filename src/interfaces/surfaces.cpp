@@ -175,7 +175,7 @@ SideTrace turned(const SideTrace& met, const Mat3& turn) {
 Facing turned(const CyclicSymmetry& cyclic, const Facing& met, const std::function<bool(const Vec3&)>& is_taken_away) {
   Facing facing = met;
   if (met.matches()) facing = without(met, is_taken_away);
-  facing.carrier = 1;
+  if (met.matches()) facing.carrier = 1;
   facing.tangent = cyclic.along;
   facing.side_2 = turned(facing.side_2, cyclic.turn);
   for (int i = 0; i < facing.n_points(); ++i) {

@@ -94,6 +94,31 @@ Mat null_space(const Mat& gram, double nothing) {
   return eigen.vectors.leftCols((eigen.values.array() < nothing).count());
 }
 
+const CyclicSymmetry* cyclic_symmetry_of(const Problem& problem) {
+  for (const InterfacePtr& interface : problem.interfaces)
+    if (interface->cyclic) return &*interface->cyclic;
+  return nullptr;
+}
+
+// The translation along the axis of a ring and the turn about it, as combinations of the motions of the lumps: of a
+// sector whose cut faces fit each other to the digits of a file they break the ties by as much. Others: none.
+Mat motions_of_ring(const LinearAssembly& assembly, const Problem& problem, const SparseMatrix& lumps) {
+  const CyclicSymmetry* ring = cyclic_symmetry_of(problem);
+  if (!ring) return Mat(lumps.cols(), 0);
+  Mat rigid(lumps.rows(), 2);
+  for (size_t part = 0; part < problem.substructures.size(); ++part) {
+    const Mesh& mesh = *problem.substructures[part]->mesh;
+    const Vec3 about = ring->through - problem.substructures[part]->place;
+    const auto rows = Eigen::seqN(3 * assembly.first_node[part], 3 * mesh.n_nodes());
+    rigid(rows, 0) = mesh.inside->rigid_motion(mesh.nodes, about, ring->along, Vec3::Zero()).reshaped();
+    rigid(rows, 1) = mesh.inside->rigid_motion(mesh.nodes, about, Vec3::Zero(), ring->along).reshaped();
+  }
+  return lumps.transpose() * (rigid * rigid.colwise().norm().cwiseInverse().asDiagonal());
+}
+
+// As much of a motion as faces that meet node for node may be apart, of their smallest edge; its square.
+constexpr double rounded = 1e-12;
+
 // Motions of the lumps in which no condition is broken, on the unknowns.
 Mat unbroken_motions(const LinearAssembly& assembly, const Problem& problem, const std::string& what) {
   constexpr double nothing = 1e-14;  // square of what conditions have of a motion of norm one
@@ -108,6 +133,14 @@ Mat unbroken_motions(const LinearAssembly& assembly, const Problem& problem, con
         (assembly.springs.cwiseProduct(assembly.springs) * Vec::Ones(assembly.springs.cols())).cwiseSqrt();
     const SparseMatrix felt = diagonal_matrix(norms.cwiseInverse()) * SparseMatrix(assembly.springs * z);
     gram += Mat(SparseMatrix(felt.transpose()) * felt);
+  }
+  const Mat of_ring = motions_of_ring(assembly, problem, lumps);
+  for (Eigen::Index m = 0; m < of_ring.cols(); ++m) {
+    const Vec motion = of_ring.col(m), broken_by_it = gram * motion;
+    const double square = motion.dot(broken_by_it);
+    if (square < rounded)
+      gram +=
+          square * motion * motion.transpose() - motion * broken_by_it.transpose() - broken_by_it * motion.transpose();
   }
   const Mat kept = null_space(gram, nothing);
   if (kept.cols() > most_free_motions)
@@ -141,12 +174,6 @@ Mat WholeInertia::sorted(const Mat& of_vectors) const {
 }
 
 namespace {
-
-const CyclicSymmetry* cyclic_symmetry_of(const Problem& problem) {
-  for (const InterfacePtr& interface : problem.interfaces)
-    if (interface->cyclic) return &*interface->cyclic;
-  return nullptr;
-}
 
 // A sector's share of what its ring is: about a centre on the axis, and without motions across it, which differ from
 // sector to sector.
@@ -200,7 +227,11 @@ Mat free_motions(const LinearAssembly& assembly, const Problem& problem, const W
   if (motions.cols() == 0) return motions;
   const SparseMatrix& elastic = assembly.springs.rows() > 0 ? assembly.cells : assembly.stiffness;
   const double highest = elastic.diagonal().cwiseQuotient(assembly.mass.diagonal()).maxCoeff();
-  const Mat unresisted = motions * null_space(assembly.energies(motions) / highest, nothing_stored);
+  // What a sector's rounded places break of its ties is no energy, however stiff they are.
+  const Mat stored = cyclic_symmetry_of(problem)
+                         ? Mat(motions.transpose() * (elastic * motions) * (nothing_stored / rounded))
+                         : assembly.energies(motions);
+  const Mat unresisted = motions * null_space(stored / highest, nothing_stored);
   return unresisted * whole.sorted(unresisted.transpose() * whole.momenta);
 }
 

@@ -384,6 +384,7 @@ def iterated():
     compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3])
     # Meshes of files: rank 0 has them meshed for all; turned copies.
     compare("meshed", DECKS / "bench" / "ring.lua", "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
+    compare("sector", DECKS / "verification" / "ring_sector.lua", "ring_sector", "--set", "fine=3", also=[3])
     (FOLDER / "spoiled.geo").write_text("Point(1) = {0, 0;\n")
     (FOLDER / "spoiled.lua").write_text('local m = mesh.gmsh{ file = "spoiled.geo" }\n')
     dygita(2, "run", FOLDER / "spoiled.lua", "--quiet", "--out", FOLDER / "spoiled", expected=2, says=["gmsh cannot read or mesh it"])

@@ -1,10 +1,12 @@
 // One sector of a ring (interface.cyclic) against the whole ring.
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 
 #include "base/error.hpp"
 #include "decks/engine.hpp"
+#include "foreign/written_file.hpp"
 
 namespace dygita::test::cyclic_tests {
 namespace {
@@ -44,10 +46,20 @@ TEST(Cyclic, sector_is_shaken_as_the_ring_is) {
   }
 }
 
+// In whatever order a deck names the faces.
 TEST(Cyclic, unlike_meshes_of_the_cuts_are_those_of_the_ring) {
-  const Settings settings = {{"shock", "0"}, {"fine", "3"}};
-  const DeckRun sector = ring(settings, "0"), whole = ring(settings, "1");
-  for (const char* name : {"tip", "wall"}) EXPECT_LT(apart(whole, sector, name, axes), 1e-6);
+  for (const Settings& unlike :
+       {Settings{{"fine", "3"}}, Settings{{"fine", "4"}}, Settings{{"fine", "3"}, {"order", "2"}}}) {
+    Settings settings = unlike;
+    settings.emplace_back("shock", "0");
+    const DeckRun whole = ring(settings, "1"), sector = ring(settings, "0");
+    settings.emplace_back("swap", "1");
+    const DeckRun swapped = ring(settings, "0");
+    for (const char* name : {"tip", "wall"}) {
+      EXPECT_LT(apart(whole, sector, name, axes), 1e-6);
+      EXPECT_LT(apart(whole, swapped, name, axes), 1e-6);
+    }
+  }
 }
 
 // Two rings on each other under pressure: what joins them may open where it reaches the cut, so that both cuts hold
@@ -151,6 +163,76 @@ problem{ name = "sector", substructures = { part }, interfaces = { cut }, steps 
     EXPECT_EQ(f[1], 0.0) << order;
     EXPECT_GT(f[2], 5e3);
   }
+}
+
+// An eighth of a ring of two parts with unlike cells, which a file gives to a few digits.
+std::string rounded_ring(int digits) {
+  std::string nodes, cells, sets;
+  int node = 0, cell = 0;
+  for (const char* name : {"inner", "outer"}) {
+    const bool is_inner = *name == 'i';
+    const int n_around = is_inner ? 4 : 6, n_up = is_inner ? 2 : 3, first = node;
+    cells += fmt::format("*ELEMENT, TYPE=C3D8I, ELSET={}\n", name);
+    const auto at = [&](int i, int j, int k) { return first + 1 + (i * (n_around + 1) + j) * (n_up + 1) + k; };
+    for (int i = 0; i <= 2; ++i)
+      for (int j = 0; j <= n_around; ++j)
+        for (int k = 0; k <= n_up; ++k) {
+          const double r = (is_inner ? 30.0 : 40.0) + 5.0 * i, a = (7.0 + 45.0 * j / n_around) * M_PI / 180.0;
+          nodes += fmt::format("{}, {:.{}g}, {:.{}g}, {:.{}g}\n", ++node, r * std::cos(a), digits, r * std::sin(a),
+                               digits, 10.0 * k / n_up, digits);
+          if (i == 2 || j == n_around || k == n_up) continue;
+          cells += fmt::format("{}, {}, {}, {}, {}, {}, {}, {}, {}\n", ++cell, at(i, j, k), at(i + 1, j, k),
+                               at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1), at(i + 1, j, k + 1),
+                               at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1));
+        }
+    const auto set = [&](const char* face, auto&& is_on) {
+      sets += fmt::format("*NSET, NSET={} {}\n", name, face);
+      for (int i = 0; i <= 2; ++i)
+        for (int j = 0; j <= n_around; ++j)
+          for (int k = 0; k <= n_up; ++k)
+            if (is_on(i, j)) sets += fmt::format("{},\n", at(i, j, k));
+    };
+    set("right", [](int, int j) { return j == 0; });
+    set("left", [&](int, int j) { return j == n_around; });
+    set("inside", [](int i, int) { return i == 0; });
+    set("outside", [](int i, int) { return i == 2; });
+    sets += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=steel\n", name);
+  }
+  return "*NODE\n" + nodes + cells + sets + "*MATERIAL, NAME=steel\n*ELASTIC\n210000, 0.3\n*DENSITY\n7.8e-9\n";
+}
+
+TEST(Cyclic, sector_is_free_about_its_axis_to_the_digits_of_a_file) {
+  std::vector<double> exact;
+  for (const int digits : {14, 8, 7, 6, 5}) {
+    const WrittenFile file(rounded_ring(digits));
+    const DeckRun run = run_text(fmt::format(R"(
+local file = mesh.abaqus{{ file = "{}", unit = mm, units = "mm t s" }}
+local function part(name) return substructure{{ name = name, mesh = file:part(name), material = file:material "steel" }} end
+local inner, outer = part "inner", part "outer"
+local function cut(of) return interface.cyclic{{ name = "cut of " .. of.name, between = {{ of:face(of.name .. " left"), of:face(of.name .. " right") }}, axis = {{ 0, 0, 1 }}, n = 8 }} end
+local seam = interface.bonded{{ name = "seam", between = {{ inner:face "inner outside", outer:face "outer inside" }}, within = 0.5*mm }}
+problem{{ name = "sector", substructures = {{ inner, outer }}, interfaces = {{ seam, cut(inner), cut(outer) }}, steps = {{ step.static{{ name = "rest" }} }},
+         outputs = {{ output.modes{{ name = "modes", n = 4 }} }} }}:run{{}}
+)",
+                                             file.path()))
+                            .at(0);
+    const std::vector<double>& f = run.column("modes", "frequency");
+    ASSERT_EQ(f.size(), 4u) << digits;
+    if (exact.empty()) exact = f;
+    EXPECT_EQ(f[0], 0.0) << digits;
+    EXPECT_EQ(f[1], 0.0) << digits;
+    for (const int m : {2, 3}) EXPECT_NEAR(f[m], exact[m], 5e-3 * exact[m]) << digits;
+  }
+}
+
+TEST(Cyclic, the_turn_of_a_sector_is_called_a_turn) {
+  testing::internal::CaptureStderr();
+  ring({{"shock", "0"}, {"free", "1"}, {"joint", "1"}}, "0");
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("rotation about the axis of the ring of substructure 'skin 1' is unconstrained"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("translation along"), std::string::npos) << said;
 }
 
 // wedge(name, low): an eighth of a ring of steel, of few cells, from the height `low` on.

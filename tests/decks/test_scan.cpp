@@ -54,6 +54,51 @@ TEST(Scan, is_the_function_that_it_was_taken_from) {
   EXPECT_NEAR(measured.column("side", "x").back(), known.column("side", "x").back(), 1e-13);
 }
 
+// A small block on the middle of a larger one; the scan is of the place where they meet, by the names of either face.
+TEST(Scan, need_only_reach_where_the_faces_meet) {
+  const auto path = std::filesystem::temp_directory_path() / ("dygita_small_" + std::to_string(getpid()) + ".csv");
+  const auto run = [&](const std::string& gap, const std::string& between, double last) {
+    std::ofstream file(path);
+    file << "x [mm], y [mm], height [um]\n";
+    for (double x = 10; x <= last; x += 0.5)
+      for (double y = 12; y <= 20; y += 0.5) file << x << ", " << y << ", " << -(0.3 * x + 0.1 * y) << "\n";
+    file.close();
+    return run_text(R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local lower = substructure{ name = "lower", material = steel, mesh = mesh.box{ size = { 30*mm, 32*mm, 5*mm }, cells = { 7, 7, 2 } } }
+local upper = substructure{ name = "upper", material = steel, mesh = mesh.box{ size = { 10*mm, 8*mm, 5*mm }, cells = { 5, 4, 2 }, origin = { 10*mm, 12*mm, 5*mm } } }
+local scan = field.file{ file = ")" +
+                        path.string() +
+                        R"(" }
+local joint = interface.contact{ name = "joint", between = )" +
+                        between + ", gap = " + gap + R"( }
+local base = support.fixed{ name = "base", on = lower:face "zmin" }
+local press = step.static{ name = "press", increments = 3, loads = { load.displacement{ on = upper:face "zmax", x = 0, y = 0, z = -20*um } } }
+problem{ name = "p", substructures = { lower, upper }, interfaces = { joint }, supports = { base }, steps = { press }, outputs = { output.resultant{ name = "force", on = joint } } }:run{}
+)",
+                    {}, 1)
+        .at(0)
+        .column("force", "normal")
+        .back();
+  };
+  const std::string scanned = "function(x, y, z) return -scan(x, y, z) end";
+  const double known =
+      run("function(x, y, z) return 0.3e-3 * x + 0.1e-3 * y end", R"({ lower:face "zmax", upper:face "zmin" })", 20);
+  ASSERT_LT(known, -100.0);
+  for (const char* between :
+       {R"({ lower:face "zmax", upper:face "zmin" })", R"({ upper:face "zmin", lower:face "zmax" })"})
+    EXPECT_NEAR(std::abs(run(scanned, between, 20)), std::abs(known), 1e-6 * std::abs(known));
+  for (const auto& [last, expected] :
+       {std::pair(15.0, "interface 'joint': the scan in 'gap' has no point near ("), std::pair(9.0, "the scan '")})
+    try {
+      run(scanned, R"({ lower:face "zmax", upper:face "zmin" })", last);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  std::filesystem::remove(path);
+}
+
 TEST(Scan, is_doubted_by_line_where_a_height_stands_alone_and_refused_where_a_place_has_two) {
   const auto path = std::filesystem::temp_directory_path() / ("dygita_spike_" + std::to_string(getpid()) + ".csv");
   const auto run = [&](const std::string& last) {

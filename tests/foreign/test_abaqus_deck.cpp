@@ -154,8 +154,32 @@ TEST(AbaqusDeck, does_not_guess_what_a_line_means) {
     SCOPED_TRACE(card);
     expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n" + std::string(card) + "*END STEP\n"), "NOT TRANSLATED");
   }
-  expect_in(imported("*TRANSFORM, NSET=X0, TYPE=C\n0,0,0,0,0,1\n*BOUNDARY\nX0, 1\n*STEP\n*STATIC\n*END STEP\n"),
-            "in axes of *TRANSFORM");
+  expect_in(imported("*TRANSFORM, NSET=X0, TYPE=R\n1,2,0,-2,1,0\n*BOUNDARY\nX0, 1\n*STEP\n*STATIC\n*END STEP\n"),
+            "a node is held along axes of *TRANSFORM that are none of the file's");
+  expect_in(imported("*TRANSFORM, NSET=X0, TYPE=R\n1,2,0,2,4,0\n*STEP\n*STATIC\n*END STEP\n"),
+            "its two points are on one line");
+  expect_in(imported("*TRANSFORM, NSET=X0, TYPE=S\n0,0,0,0,0,1\n*STEP\n*STATIC\n*END STEP\n"), "TYPE = S");
+}
+
+// R: axis 1 is y of the file, axis 2 its -x; aslant: axis 1 is (0.6, 0.8, 0). C: about z through (-10, 0, 0).
+TEST(AbaqusDeck, honours_axes_of_transform) {
+  const std::string turned = "*TRANSFORM, NSET=X0, TYPE=R\n0,2,0,-1,0,0\n", step = "*STEP\n*STATIC\n*END STEP\n";
+  std::string deck = imported(turned + "*BOUNDARY\nX0, 1\nX0, 3\n" + step);
+  expect_in(deck, "}, y = true, z = true }");
+  deck = imported(turned + "*STEP\n*STATIC\n*BOUNDARY\nX0, 2, 2, 0.5\n*END STEP\n");
+  expect_in(deck, "}, x = -0.5*length }");
+  const std::string aslant = "*NSET, NSET=ONE\n7, 10\n*TRANSFORM, NSET=ONE, TYPE=R\n3,4,0,-4,3,0\n";
+  deck = imported(aslant + "*BOUNDARY\nONE, 1, 2\n*STEP\n*STATIC\n*CLOAD\nONE, 1, 10.\n*END STEP\n");
+  expect_in(deck, "}, x = true, y = true }");
+  expect_in(deck, "}, x = 12*force, y = 16*force }");
+  deck = imported(aslant + "*EQUATION\n2\n7,1,1.,13,3,-2.\n" + step);
+  expect_in(deck, "terms = { { z = -2 }, { x = 0.6, y = 0.8 } }");
+  deck = imported(turned + "*EQUATION\n2\n7,1,1.,10,2,-1.\n" + step);
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  deck = imported(
+      "*NSET, NSET=TWO\n7, 10\n*TRANSFORM, NSET=TWO, TYPE=C\n-10,0,0,-10,0,1\n*STEP\n*STATIC\n*CLOAD\nTWO, 2, 10.\n*END "
+      "STEP\n");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
 }
 
 TEST(AbaqusDeck, has_steps_of_motion_modes_and_amplitudes) {
