@@ -177,7 +177,8 @@ TEST(AbaqusDeck, honours_axes_of_transform) {
   deck = imported(turned + "*EQUATION\n2\n7,1,1.,10,2,-1.\n" + step);
   EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
   deck = imported(
-      "*NSET, NSET=TWO\n7, 10\n*TRANSFORM, NSET=TWO, TYPE=C\n-10,0,0,-10,0,1\n*STEP\n*STATIC\n*CLOAD\nTWO, 2, 10.\n*END "
+      "*NSET, NSET=TWO\n7, 10\n*TRANSFORM, NSET=TWO, TYPE=C\n-10,0,0,-10,0,1\n*STEP\n*STATIC\n*CLOAD\nTWO, 2, "
+      "10.\n*END "
       "STEP\n");
   EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
 }
