@@ -73,6 +73,20 @@ local turns = {
       return answer
     end
   end,
+  -- Moments xx, yy, zz, and xy, xz, yz where they are given.
+  inertia = function(p, of)
+    if #of ~= 3 and #of ~= 6 then return of end
+    local xy, xz, yz = of[4] or 0, of[5] or 0, of[6] or 0
+    local rows = { { of[1], xy, xz }, { xy, of[2], yz }, { xz, yz, of[3] } }
+    local function entry(i, j)
+      local total = 0
+      for a = 1, 3 do
+        for b = 1, 3 do total = total + p[3 * i - 3 + a] * rows[a][b] * p[3 * j - 3 + b] end
+      end
+      return total
+    end
+    return { entry(1, 1), entry(2, 2), entry(3, 3), entry(1, 2), entry(1, 3), entry(2, 3) }
+  end,
   corner = function(_, x) return x end,
   component = function(_, value) return value end,
   motion = function(_, value) return value end,

@@ -400,9 +400,10 @@ words[3][2] = {
     name_of "part",
     on({ "face" }, "faces of parts that it touches; they are stiff as far as they are joined to it"),
     { "mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, required = true, doc = "of the body" },
-    { "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, required = true,
+    { "inertia", in_frame = "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, required = true,
       doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
-    { "at", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
+    { "at", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
+    frame "of `at` and along whose axes `inertia` is",
     part_arguments[6],
   },
 }

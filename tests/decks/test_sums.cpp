@@ -147,6 +147,32 @@ local steps = { held })",
   }
 }
 
+// Its centre and its inertia in a frame are those that are turned by hand.
+TEST(RigidBodies, may_be_given_in_a_frame) {
+  const auto modes = [](const char* way) {
+    return run_text(R"(
+local p = param{ way = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local stub = substructure{ name = "stub", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+local c, s = math.cos(30*deg), math.sin(30*deg)
+local box = p.way == 0 and
+  substructure.rigid{ name = "box", on = stub:face "zmax", mass = 3, inertia = { 1e-3, 2e-3, 2.5e-3, 1e-4, 0, 0 }, at = { 20*mm, 5*mm, -2*mm },
+                      frame = frame{ origin = { 0, 0, 12*mm }, x = { c, s, 0 } } } or
+  substructure.rigid{ name = "box", on = stub:face "zmax", mass = 3, at = { 20*mm * c - 5*mm * s, 20*mm * s + 5*mm * c, 10*mm },
+                      inertia = { 1e-3 * c^2 + 2e-3 * s^2 - 2e-4 * c * s, 1e-3 * s^2 + 2e-3 * c^2 + 2e-4 * c * s, 2.5e-3, (1e-3 - 2e-3) * c * s + 1e-4 * (c^2 - s^2), 0, 0 } }
+local feet = interface.bonded{ name = "feet", between = { stub:face "zmax", box:face "zmax" } }
+local base = support.fixed{ name = "base", on = stub:face "zmin" }
+problem{ name = "p", substructures = { stub, box }, interfaces = { feet }, supports = { base }, steps = { step.static{ name = "rest" } }, outputs = { output.modes{ name = "modes", n = 6 } } }:run{}
+)",
+                    {{"way", way}})
+        .at(0)
+        .column("modes", "frequency");
+  };
+  const std::vector<double> in_frame = modes("0"), by_hand = modes("1");
+  ASSERT_EQ(in_frame.size(), 6u);
+  for (size_t i = 0; i < in_frame.size(); ++i) EXPECT_NEAR(in_frame[i], by_hand[i], 1e-8 * by_hand[i]);
+}
+
 // A mass of 3 kg on the spring and a damper: decrement over a period, 2 pi zeta / sqrt(1 - zeta^2).
 TEST(Springs, damp_by_their_dampers) {
   const DeckRun run = run_text(R"(
