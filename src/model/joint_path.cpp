@@ -31,10 +31,9 @@ std::set<const Interface*> tightened_in(const Problem& problem) {
 }
 
 double loss_of(const Interface& interface, bool is_tightened) {
-  const std::string word = interface.law->word();
   if (is_tightened) return a_bolted_joint;
-  if (word == "bonded") return a_bond;
-  return word == "bushing" || word == "viscous" ? an_isolator : a_bolted_joint;
+  if (interface.law->word() == "bonded") return a_bond;
+  return is_isolator(interface) ? an_isolator : a_bolted_joint;
 }
 
 // dB between neighbours that something joins, by the best of their interfaces.
@@ -83,6 +82,11 @@ std::vector<int> parts_before(const Losses& losses, int n, int from) {
 }
 
 }  // namespace
+
+bool is_isolator(const Interface& interface) {
+  const std::string word = interface.law->word();
+  return word == "bushing" || word == "viscous";
+}
 
 double JointPath::rule() const {
   return -(a_metre * distance + a_bolted_joint * bolted + a_bond * bonded + an_isolator * isolators);

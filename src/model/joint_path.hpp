@@ -16,6 +16,9 @@ struct JointPath {
   std::string text() const;  // "1 bolted joint, 0.12 m"
 };
 
+// A bushing or a damper: its parts move each by itself.
+bool is_isolator(const Interface& interface);
+
 // The way on which the rule takes least. Parts that touch are bolted (or riveted), also by an interface.bonded that a
 // load tightens; bushings and dampers isolate unless they are tightened.
 JointPath joint_path(const Problem& problem, const FaceOrRegion& from, const FaceOrRegion& to);

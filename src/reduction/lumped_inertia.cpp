@@ -10,6 +10,7 @@
 #include "mesh/face_nodes.hpp"
 #include "mesh/jacobian.hpp"
 #include "mesh/shape_functions.hpp"
+#include "model/joint_path.hpp"
 #include "model/output.hpp"
 #include "model/support.hpp"
 #include "numerics/dense.hpp"
@@ -83,8 +84,7 @@ bool turns_as_a_whole(const Problem& problem, const SubstructurePtr& part) {
   }
   return std::none_of(problem.interfaces.begin(), problem.interfaces.end(), [&](const InterfacePtr& interface) {
     if (interface->side_1.part != part && interface->side_2.part != part) return false;
-    const std::string word = interface->law->word();
-    return !interface->means && word != "bushing" && word != "viscous";
+    return !interface->means && !is_isolator(*interface);
   });
 }
 
