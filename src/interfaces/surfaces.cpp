@@ -202,6 +202,9 @@ Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<
   const auto is_taken_away = rings.closed_by(i);
   Facing facing = meetings[i]->facing(is_taken_away);
   if (interface.cyclic) return turned(*interface.cyclic, facing, is_taken_away);
+  // Where nodes meet, a tie's conditions are those of the others; contact would act within one node.
+  if (is_taken_away && facing.matches() && !interface.law->is_tie() && !interface.law->can_be_tightened())
+    if (Facing rest = without(facing, is_taken_away); rest.n_points() > 0) facing = std::move(rest);
   if (interface.has_gap_of_geometry) take_gaps_of_places(problem, interface, facing);
   return facing;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -233,6 +234,25 @@ Facing joined(const std::vector<Facing>& parts) {
   return all;
 }
 
+namespace {
+
+// Areas of points that go (number < 0), to those that stay on the same facets.
+Vec handed_on(const Facing& facing, const std::vector<int>& number) {
+  Vec areas = facing.areas;
+  std::vector<std::set<int>> heirs(number.size());
+  for (const Facet& facet : facing.facets)
+    for (const int gone : facet.nodes())
+      if (number[static_cast<size_t>(gone)] < 0)
+        for (const int node : facet.nodes())
+          if (number[static_cast<size_t>(node)] >= 0) heirs[static_cast<size_t>(gone)].insert(node);
+  for (size_t i = 0; i < heirs.size(); ++i)
+    for (const int heir : heirs[i])
+      areas[heir] += facing.areas[static_cast<Eigen::Index>(i)] / static_cast<double>(heirs[i].size());
+  return areas;
+}
+
+}  // namespace
+
 Facing without(const Facing& facing, const std::function<bool(const Vec3&)>& is_taken_away) {
   std::vector<int> kept, number(static_cast<size_t>(facing.n_points()), -1), nodes_1, nodes_2;
   for (int i = 0; i < facing.n_points(); ++i) {
@@ -247,7 +267,7 @@ Facing without(const Facing& facing, const std::function<bool(const Vec3&)>& is_
   rest.side_2 = SideTrace(nodes_2);
   rest.places = facing.places(Eigen::all, kept);
   rest.normals = facing.normals(Eigen::all, kept);
-  rest.areas = facing.areas(kept);
+  rest.areas = handed_on(facing, number)(kept);
   rest.gaps = facing.gaps(kept);
   std::erase_if(rest.facets, [&](Facet& facet) {
     bool is_whole = true;

@@ -121,9 +121,15 @@ problem{ name = "foot", substructures = { plate, block }, interfaces = { glue, r
     bool is_of_plate;
     double left, refined;  // mm^2, N
   };
-  const Scene scenes[] = {{"11", "8", "4", false, 200, 2105},  {"13.5", "8", "4", false, 200, 2107},
-                          {"11", "10", "6", false, 200, 2105}, {"11", "4", "8", false, 200, 2105},
-                          {"11", "8", "5", true, 220, 2183},   {"8", "20", "5", true, 200, 2143}};
+  const Scene scenes[] = {{"11", "8", "4", false, 200, 2105},
+                          {"13.5", "8", "4", false, 200, 2107},
+                          {"11", "10", "6", false, 200, 2105},
+                          {"11", "4", "8", false, 200, 2105},
+                          {"11", "8", "5", true, 220, 2183},
+                          {"8", "20", "5", true, 200, 2143},
+                          // Nodes meet: the bond has those of the common line, and with them half a cell of four.
+                          {"10", "8", "4", false, 200, 0.75 * 2107},
+                          {"10", "8", "4", true, 200, 0.75 * 1999}};
   for (const Scene& scene : scenes) {
     SCOPED_TRACE(std::string(scene.x) + " " + scene.plate + " " + scene.block);
     testing::internal::CaptureStderr();
