@@ -55,7 +55,7 @@ Facing facing_of(const PlacedFace& face);
 // A face's smooth surfaces, between sharp edges.
 std::vector<PlacedFace> smooth_parts(const PlacedFace& face);
 
-// Those of its points of which `is_taken_away` does not say that they go; empty: all.
+// Those of its points of which `is_taken_away` does not say that they go, with the areas of those that do; empty: all.
 Facing without(const Facing& facing, const std::function<bool(const Vec3&)>& is_taken_away);
 
 // All points of several, none of them merged: at an edge of two parts each has its own. At least one.
