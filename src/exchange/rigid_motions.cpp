@@ -1,3 +1,5 @@
+// The rigid motions that nothing holds in a step: found from the conditions between bodies, held against the loads, and
+// named for the user. One source, since all of it works on the same blocks of bodies; hence longer than most.
 #include "exchange/rigid_motions.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -1,3 +1,5 @@
+// Parts that touch or overlap without an interface: what interfaces, springs and sums join is set aside, the rest is
+// measured and told. One source, since every step passes on the same facets of a pair; hence longer than most.
 #include "interfaces/unjoined.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -86,7 +86,7 @@ TEST(BoltedFlanges, tightens_within_a_percent_of_the_limit_and_shocks_at_two_mes
 }
 
 // Without damping and the time to ring out, what is read below the joint is the velocity at the end of the record.
-TEST(BoltedFlanges, ring_out_so_that_the_spectrum_below_the_joint_does_not_hang_on_the_end_of_the_record) {
+TEST(BoltedFlanges, ring_out_so_that_the_spectrum_below_the_joint_does_not_depend_on_the_end_of_the_record) {
   const auto mean_of = [](const DeckRun& run, const std::string& column) {
     const Table& band = run.findings("srs_below").band;
     double sum = 0.0, n = 0.0;

@@ -73,7 +73,7 @@ TEST_F(SpectrumOutput, has_a_spectrum_a_band_and_its_distance_from_the_specifica
 }
 
 // The ringing of unit amplitude goes on as it began: what is slower than it sees its last velocity as a step.
-TEST_F(SpectrumOutput, tells_what_hangs_on_the_end_of_its_record_and_warns_beyond_a_decibel) {
+TEST_F(SpectrumOutput, tells_what_depends_on_the_end_of_its_record_and_warns_beyond_a_decibel) {
   conclude();
   const Table& band = findings().band;
   for (int i = 0; i < band.n_rows(); ++i) {

@@ -279,7 +279,7 @@ const std::vector<double>& cut_ring() {
   return signal;
 }
 
-TEST(Srs, of_a_record_that_is_cut_off_in_motion_tells_what_hangs_on_the_cut) {
+TEST(Srs, of_a_record_that_is_cut_off_in_motion_tells_what_depends_on_the_cut) {
   const Srs srs = shock_response_spectrum(cut_ring(), 0.01, watched(10.0, 0.1, 8.0));
   for (size_t i = 0; i < srs.frequency.size(); ++i) {
     if (srs.frequency[i] < 0.3) {
@@ -295,7 +295,7 @@ TEST(Srs, of_a_record_that_is_cut_off_in_motion_tells_what_hangs_on_the_cut) {
 }
 
 // What keeps its velocity after a push ends as it will go on.
-TEST(Srs, of_a_push_hangs_on_no_cut) {
+TEST(Srs, of_a_push_depends_on_no_cut) {
   std::vector<double> signal = half_sine(100);
   signal.resize(1000, 0.0);
   const Srs srs = shock_response_spectrum(signal, 1e-3, watched(10.0, 1.0, 400.0));
