@@ -230,17 +230,30 @@ std::string complaint(const Problem& problem) {
   return "";
 }
 
-TEST(Exchange, refuses_a_law_between_sides_that_are_tied) {
+// Four cubes around a line; a law between c and d where the others are tied.
+Problem four_cubes(const std::vector<LawPtr>& laws) {
   Problem problem;
   const BlockPtr a = cube("a", 0, 0, 0), b = cube("b", 1, 0, 0), c = cube("c", 0, 0, 1), d = cube("d", 1, 0, 1);
   problem.substructures = {a, b, c, d};
   problem.interfaces = {interface("ab", face(a, "xmax"), face(b, "xmin"), bonded()),
                         interface("ac", face(a, "zmax"), face(c, "zmin"), bonded()),
-                        interface("bd", face(b, "zmax"), face(d, "zmin"), bonded()),
-                        interface("cd", face(c, "xmax"), face(d, "xmin"), contact(0.1))};
+                        interface("bd", face(b, "zmax"), face(d, "zmin"), bonded())};
+  for (const LawPtr& law : laws)
+    problem.interfaces.push_back(interface("cd " + law->word(), face(c, "xmax"), face(d, "xmin"), law));
   problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
-  EXPECT_NE(complaint(problem).find("interface 'cd': its two sides are tied to each other"), std::string::npos)
-      << complaint(problem);
+  return problem;
+}
+
+TEST(Exchange, contact_leaves_a_line_of_ties_to_them) {
+  const Modelled of(four_cubes({contact(0.1)}));
+  int n_of_contact = 0;
+  for (const Point& point : of.model.exchange.points) n_of_contact += point.law != nullptr;
+  EXPECT_EQ(n_of_contact, 6);
+}
+
+TEST(Exchange, refuses_a_law_between_sides_that_are_tied) {
+  const std::string message = complaint(four_cubes({bonded(), contact(0.1)}));
+  EXPECT_NE(message.find("interface 'cd contact': its two sides are tied to each other"), std::string::npos) << message;
 }
 
 // Pieces of one shape and material have one factor between them.
