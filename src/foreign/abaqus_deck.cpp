@@ -30,6 +30,7 @@ class AbaqusDeck : public ImportedDeck {
     write_parts(needs_density());
     write_welds();
     for (const AbaqusJoint& joint : analysis_.joints) write_joint(joint);
+    for (const FileBody& body : analysis_.bodies) put_body(body);
     for (const AbaqusEquation& equation : analysis_.equations) write_equation(equation);
     for (const FileSpring& spring : analysis_.springs)
       if (const std::string name = put_spring(spring, equations_.size() + 1); !name.empty()) equations_.push_back(name);
@@ -187,7 +188,7 @@ class AbaqusDeck : public ImportedDeck {
       if (action.kind == Kind::held) continue;
       const std::set<int> points = points_of(action);
       for (const ActingLoad* one : acting_.met_by(action, points, action.kind))
-        if (one->points == points && one->action.along == action.along)
+        if (one->points == points && one->action.along == action.along && one->action.owner == action.owner)
           replaced.insert(one->name);
         else
           leave(fmt::format("{}: it changes a part of what {} says", action.where, one->action.where));

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "foreign/abaqus_references.hpp"
 #include "foreign/loaded_facets.hpp"
 
 namespace dygita {
@@ -65,6 +66,10 @@ const std::set<std::string> silent = {"NODE",
                                       "SURFACEBEHAVIOR",
                                       "FRICTION",
                                       "ENDSTEP",
+                                      "RIGIDBODY",  // these four are read with their reference nodes
+                                      "COUPLING",
+                                      "KINEMATIC",
+                                      "DISTRIBUTING",
                                       "PHYSICALCONSTANTS",
                                       "CONTROLS",
                                       "USERMATERIAL",
@@ -86,6 +91,11 @@ const std::map<std::string, std::set<std::string>> options_of = {
     {"EQUATION", {}},
     {"MPC", {}},
     {"SPRING", {"ELSET"}},
+    {"MASS", {"ELSET"}},
+    {"RIGIDBODY", {"NSET", "ELSET", "REFNODE", "ROTNODE"}},
+    {"COUPLING", {"REFNODE", "SURFACE", "CONSTRAINTNAME"}},
+    {"KINEMATIC", {}},
+    {"DISTRIBUTING", {}},
     {"AMPLITUDE", {"NAME", "TIME", "VALUE", "DEFINITION"}},
     {"STATIC", {"DIRECT", "SOLVER"}},
     {"DYNAMIC", {"DIRECT", "SOLVER", "EXPLICIT", "ALPHA"}},
@@ -105,7 +115,8 @@ constexpr double rough = 1000;  // coefficient of friction: the largest of a dec
 
 class AnalysisReader {
  public:
-  explicit AnalysisReader(AbaqusModel& model) : model_(model), file_(model.file()), constraints_(model) {}
+  explicit AnalysisReader(AbaqusModel& model)
+      : model_(model), file_(model.file()), constraints_(model), references_(model) {}
 
   AbaqusAnalysis read() {
     for (const PlacedCard& placed : model_.cards()) {
@@ -121,6 +132,7 @@ class AnalysisReader {
             fmt::format("{}: modes of all nodal diameters: a deck has those of nodal diameter 0", step.where));
     constraints_.finish(analysis_.springs, analysis_.untranslated);
     analysis_.equations = std::move(constraints_.equations);
+    references_.finish(analysis_);
     return std::move(analysis_);
   }
 
@@ -148,6 +160,7 @@ class AnalysisReader {
       if (!analysis_.steps.empty()) return leave(card, "in a step");
       return constraints_.read(placed, turned_);
     }
+    if (word == "MASS") return references_.read_mass(placed);
     if (!silent.contains(word)) leave(card, "a deck has no word for it");
   }
 
@@ -329,6 +342,7 @@ class AnalysisReader {
       if (!fields.next(last) || last.empty()) last = first;
       const auto [from, to] = directions(fields, first, last);
       const double by = fields.next(value) && !value.empty() ? fields.real_of(value, "a displacement") : 0.0;
+      if (is_of_reference(placed, line, true, what, {from, to}, by)) continue;
       const auto [known, is_new] = by_field.try_emplace(std::string(what), std::array<double, 6>{});
       if (is_new) order.emplace_back(what);
       line_of.try_emplace(std::string(what), &line);
@@ -365,6 +379,7 @@ class AnalysisReader {
       fields.next(what);
       const long d = fields.whole("a direction");
       const double by = fields.real("a force");
+      if (d >= 1 && d <= 6 && is_of_reference(placed, line, false, what, {d, d}, by)) continue;
       if (d < 1 || d > 3) fields.fail(fmt::format("*CLOAD: direction {}: forces are along 1 to 3", d));
       std::array<double, 6> says{};
       says[static_cast<size_t>(d) - 1] = 1;
@@ -372,6 +387,16 @@ class AnalysisReader {
       if (by != 0.0) note(sayings, placed, line, what, says);
     }
     add_actions(placed, FileAction::Kind::force, "cload", sayings);
+  }
+
+  bool is_of_reference(const PlacedCard& placed, const DataLine& line, bool is_held, std::string_view what,
+                       std::pair<long, long> directions, double by) {
+    const std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), what);
+    const bool is_turned = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return turned_.contains(node); });
+    if (!references_.read({placed, line, static_cast<int>(analysis_.steps.size()) - 1}, is_held, nodes, directions, by))
+      return false;
+    if (is_turned) leave(*placed.card, "a reference node in axes of *TRANSFORM");
+    return true;
   }
 
   FileAction pressure(const FileCard& card, double by, const DataLine& line) const {
@@ -526,6 +551,7 @@ class AnalysisReader {
   bool is_sector_ = false;      // of a ring
   std::map<int, Mat3> turned_;  // axes of the nodes of *TRANSFORM
   AbaqusConstraints constraints_;
+  AbaqusReferences references_;
 };
 
 }  // namespace

@@ -39,6 +39,7 @@ struct AbaqusAnalysis {
   std::vector<AbaqusJoint> joints;
   std::vector<AbaqusEquation> equations;
   std::vector<FileSpring> springs;
+  std::vector<FileBody> bodies;
   std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals
   std::vector<std::string> remarks;                       // what is said otherwise
   std::vector<std::string> untranslated;                  // "plate.inp:45: *SPRING: ..."
