@@ -79,6 +79,11 @@ class AbaqusDeck : public ImportedDeck {
                        vector(ring.from, "*length"), ring.n);
   }
 
+  static std::string gap_of(const AbaqusJoint& joint) {
+    if (!joint.clearance) return "gap = \"geometry\"";
+    return *joint.clearance == 0.0 ? "closed = true" : fmt::format("gap = {}*length", lua_number(*joint.clearance));
+  }
+
   void write_joint(const AbaqusJoint& joint) {
     const auto one = places(known_face(joint.one), true), other = places(known_face(joint.other), true);
     if (one.size() != 1 || other.size() != 1)
@@ -88,8 +93,8 @@ class AbaqusDeck : public ImportedDeck {
     const std::string more = joint.ring ? ring_of(*joint.ring)
                              : joint.is_tie
                                  ? ""
-                                 : fmt::format(", friction = {}, gap = \"geometry\"", lua_number(joint.friction));
-    if (joint.is_adjusted && !joint.is_tie)
+                                 : fmt::format(", friction = {}, {}", lua_number(joint.friction), gap_of(joint));
+    if (joint.is_adjusted && !joint.is_tie && !joint.clearance)
       leave(
           fmt::format("{}: ADJUST moves nodes that are near onto the other surface; where all of it is meant to touch, "
                       "closed = true takes the place of the gap",

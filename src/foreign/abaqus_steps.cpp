@@ -91,6 +91,8 @@ const std::map<std::string, std::set<std::string>> options_of = {
     {"EQUATION", {}},
     {"MPC", {}},
     {"SPRING", {"ELSET"}},
+    {"CLEARANCE", {"MASTER", "SLAVE", "VALUE"}},
+    {"DASHPOT", {"ELSET"}},
     {"MASS", {"ELSET"}},
     {"RIGIDBODY", {"NSET", "ELSET", "REFNODE", "ROTNODE"}},
     {"COUPLING", {"REFNODE", "SURFACE", "CONSTRAINTNAME"}},
@@ -130,6 +132,7 @@ class AnalysisReader {
       if (is_sector_ && step.procedure == "FREQUENCY" && !step.is_of_diameter_0)
         analysis_.untranslated.push_back(
             fmt::format("{}: modes of all nodal diameters: a deck has those of nodal diameter 0", step.where));
+    set_clearances();
     constraints_.finish(analysis_.springs, analysis_.untranslated);
     analysis_.equations = std::move(constraints_.equations);
     references_.finish(analysis_);
@@ -156,10 +159,16 @@ class AnalysisReader {
       return read_temperatures(placed, analysis_.temperatures);
     if (word == "TEMPERATURE") return read_step_temperatures(placed);
     if (word == "TRANSFORM") return note_transform(placed);
-    if (word == "EQUATION" || word == "MPC" || word == "SPRING") {
+    if (word == "EQUATION" || word == "MPC" || word == "SPRING" || word == "DASHPOT") {
       if (!analysis_.steps.empty()) return leave(card, "in a step");
       return constraints_.read(placed, turned_);
     }
+    if (word == "CLEARANCE") return note_clearance(card);
+    if (word == "PRE-TENSIONSECTION")
+      return leave(
+          card,
+          "a deck cuts no part: make the cells on either side of the surface two *SOLID SECTIONs; the weld between "
+          "the two parts then takes load.preload with the force of the *CLOAD");
     if (word == "MASS") return references_.read_mass(placed);
     if (!silent.contains(word)) leave(card, "a deck has no word for it");
   }
@@ -519,6 +528,30 @@ class AnalysisReader {
     }
   }
 
+  void note_clearance(const FileCard& card) {
+    const std::string value = card.option("VALUE");
+    const DataLine line{value, card.file, card.line};
+    if (!analysis_.steps.empty()) return leave(card, "in a step");
+    const double clearance = LineFields(file_, line).real_of(value, "VALUE = a distance");
+    if (clearance < 0.0) return leave(card, "an overlap");
+    clearances_.push_back({&card, clearance, false});
+  }
+
+  // Contact pairs are of two surfaces, in either order.
+  void set_clearances() {
+    for (Clearance& clearance : clearances_) {
+      const std::string master = in_capitals(clearance.card->option("MASTER")),
+                        slave = in_capitals(clearance.card->option("SLAVE"));
+      for (AbaqusJoint& joint : analysis_.joints) {
+        const std::string one = in_capitals(joint.one), other = in_capitals(joint.other);
+        if (joint.is_tie || !((one == slave && other == master) || (one == master && other == slave))) continue;
+        joint.clearance = clearance.by;
+        clearance.is_met = true;
+      }
+      if (!clearance.is_met) leave(*clearance.card, "there is no contact between its surfaces");
+    }
+  }
+
   // Modes of all sectors alike are those of nodal diameter 0.
   void note_diameters(const FileCard& card) {
     for (const char* end : {"NMIN", "NMAX"})
@@ -545,9 +578,16 @@ class AnalysisReader {
     }
   }
 
+  struct Clearance {
+    const FileCard* card;
+    double by;
+    bool is_met;
+  };
+
   AbaqusModel& model_;
   const CardFile& file_;
   AbaqusAnalysis analysis_;
+  std::vector<Clearance> clearances_;
   bool is_sector_ = false;      // of a ring
   std::map<int, Mat3> turned_;  // axes of the nodes of *TRANSFORM
   AbaqusConstraints constraints_;

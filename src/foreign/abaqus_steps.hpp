@@ -28,7 +28,8 @@ struct AbaqusJoint {
   bool is_tie = false, is_adjusted = false;
   std::string one, other;  // faces
   double friction = 0.0;
-  std::optional<AbaqusRing> ring;  // of a tie between the cut faces of a sector
+  std::optional<double> clearance;  // everywhere, in place of the gap of the geometry
+  std::optional<AbaqusRing> ring;   // of a tie between the cut faces of a sector
   std::string where;
 };
 

@@ -165,10 +165,14 @@ std::string ImportedDeck::put_spring(const FileSpring& given, size_t number) {
   std::string along;
   for (size_t i = 0; i < 6; ++i) {
     const std::string key = (i < 3 ? "" : "about_") + std::string(1, axis_names[i % 3]), unit = i < 3 ? "/" : "*";
-    if (spring.stiffness[i] == 0.0 && spring.damping[i] != 0.0)
-      leave(fmt::format("{}: a damper without a spring", spring.where));
-    if (spring.stiffness[i] == 0.0) continue;
-    along += fmt::format(", {} = {}*force{}length", key, lua_number(spring.stiffness[i]), unit);
+    if (spring.stiffness[i] == 0.0 && spring.damping[i] == 0.0) continue;
+    if (spring.stiffness[i] == 0.0) {
+      remarks_.push_back(
+          fmt::format("{}: a damper alone: a spring of 1e-6 N/m (or N m) stands beside it", spring.where));
+      along += fmt::format(", {} = 1e-6", key);
+    } else {
+      along += fmt::format(", {} = {}*force{}length", key, lua_number(spring.stiffness[i]), unit);
+    }
     if (spring.damping[i] != 0.0)
       along += fmt::format(", {}_damping = {}*force*time{}length", key, lua_number(spring.damping[i]), unit);
   }

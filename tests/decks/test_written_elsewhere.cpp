@@ -308,5 +308,56 @@ TEST(WrittenElsewhere, imported_masses_swing_on_what_their_reference_node_joins)
   }
 }
 
+// A block of 8e-9 x 20^3 t on a dashpot alone, pushed with 2 N from rest: x = F/c (t - m/c (1 - exp(-c t / m))).
+TEST(WrittenElsewhere, imported_dashpots_brake_by_the_velocity_of_their_ends) {
+  const AbaqusBlock block(abaqus_shapes()[0], 2);
+  std::string low = "*EQUATION\n10\n902,1,9.", all = "*NSET, NSET=EVERY\n";
+  int n_low = 0;
+  for (const auto& [node, x] : block.places()) {
+    all += std::to_string(node) + "\n";
+    if (x[0] < 0.1 && ++n_low > 0) low += fmt::format("{}{},1,-1.", n_low % 4 == 0 ? ",\n" : ",", node);
+  }
+  ASSERT_EQ(n_low, 9);
+  const WrittenFile inp(
+      block.text() + steel + all +
+          "*NODE\n901,-9.,0.,0.\n902,-1.,0.,0.\n*ELEMENT, TYPE=DASHPOTA, ELSET=D\n900,901,902\n"
+          "*BOUNDARY\n901,1,3\n902,2,3\nEVERY,2,3\n*DASHPOT, ELSET=D\n\n0.5\n" +
+          low + "\n*STEP\n*DYNAMIC, DIRECT\n1.E-6,2.E-4\n*DLOAD\nE, GRAV, 31250000., 1., 0., 0.\n*END STEP\n",
+      "brake.inp");
+  const DeckRun run = run_text(replaced(deck_of_abaqus({inp.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+                                        "output.history{ name = \"low\", on = part_e:region \"X0\", quantity = "
+                                        "\"displacement\" }"))
+                          .at(0);
+  const double mass = 0.064, force = mass * 31250, c = 500.0, t = 2e-4, rate = c / mass;
+  const double expected = force / c * (t - (1 - std::exp(-rate * t)) / rate);
+  EXPECT_NEAR(run.column("low", "x").back(), expected, 1e-4 * expected);
+}
+
+// Two bars end to end, drawn 2 um apart and said to be 1 um apart: moved by 4 um they are pressed by the rest.
+TEST(WrittenElsewhere, imported_clearances_take_the_place_of_the_gap_that_is_drawn) {
+  const auto end_of = [](const std::string& clearance) {
+    const WrittenFile inp(
+        "*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,0,0,10\n6,10,0,10\n7,10,10,10\n8,0,10,10\n"
+        "11,0,0,10.002\n12,10,0,10.002\n13,10,10,10.002\n14,0,10,10.002\n15,0,0,20.002\n16,10,0,20.002\n17,10,10,20."
+        "002\n"
+        "18,0,10,20.002\n*ELEMENT, TYPE=C3D8I, ELSET=LOW\n1,1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=C3D8I, ELSET=HIGH\n"
+        "2,11,12,13,14,15,16,17,18\n*NSET, NSET=FOOT\n1,2,3,4\n*NSET, NSET=HEAD\n15,16,17,18\n*NSET, "
+        "NSET=ALL\n1,2,3,4,5,"
+        "6,7,8,11,12,13,14,15,16,17,18\n*SURFACE, NAME=UP\nLOW, S2\n*SURFACE, NAME=DOWN\nHIGH, S1\n*SOLID SECTION, "
+        "ELSET=LOW, MATERIAL=M\n*SOLID SECTION, ELSET=HIGH, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n200000., 0.\n"
+        "*BOUNDARY\nALL, 1, 2\nFOOT, 3\n*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nDOWN, UP\n" +
+            clearance + "*STEP\n*STATIC\n*BOUNDARY\nHEAD, 3, 3, -0.004\n*END STEP\n",
+        "apart.inp");
+    const DeckRun run = run_text(replaced(deck_of_abaqus({inp.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+                                          "output.history{ name = \"up\", on = part_low:face \"UP\", quantity = "
+                                          "\"displacement\" }"))
+                            .at(0);
+    return run.column("up", "z").back();
+  };
+  EXPECT_NEAR(end_of(""), -1e-6, 1e-10);
+  EXPECT_NEAR(end_of("*CLEARANCE, MASTER=UP, SLAVE=DOWN, VALUE=0.001\n"), -1.5e-6, 1e-10);
+  EXPECT_NEAR(end_of("*CLEARANCE, MASTER=UP, SLAVE=DOWN, VALUE=0.\n"), -2e-6, 1e-10);
+}
+
 }  // namespace
 }  // namespace dygita::test::written_elsewhere_tests

@@ -203,6 +203,20 @@ TEST(AbaqusDeck, has_rigid_bodies_and_couplings_by_their_reference_nodes) {
   }
 }
 
+TEST(AbaqusDeck, says_what_a_reader_can_do_of_clearances_dashpots_and_tightened_bolts) {
+  const std::string step = "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*END STEP\n";
+  expect_in(imported("*CLEARANCE, MASTER=TOP, SLAVE=TOP, VALUE=0.1\n" + step),
+            "there is no contact between its surfaces");
+  expect_in(imported("*CLEARANCE, MASTER=TOP, SLAVE=TOP, VALUE=-0.1\n" + step), "an overlap");
+  expect_in(imported("*PRE-TENSION SECTION, SURFACE=TOP, NODE=1\n0., 0., 1.\n" + step),
+            "the weld between the two parts then takes load.preload");
+  const std::string ends =
+      "*NODE\n901,-5.,0.,0.\n902,-5.,0.,0.\n*ELEMENT, TYPE=DASHPOTA, ELSET=S\n900,901,7\n*BOUNDARY\n901,1,3\n";
+  expect_in(imported(ends + "*DASHPOT, ELSET=S\n\n0.5\n" + step), "_damping = 0.5*force*time/length");
+  expect_in(imported(ends + "*SPRING, ELSET=S\n\n0.5\n" + step), "springs between two nodes (SPRINGA)");
+  expect_in(imported("*DASHPOT, ELSET=E\n3\n10.\n" + step), "dashpots between two nodes (DASHPOTA)");
+}
+
 TEST(AbaqusDeck, holds_nodes_where_they_are) {
   const std::string deck = imported(
       "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 3, -2.5\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY, FIXED\n7, 1, "
