@@ -155,23 +155,26 @@ bool AbaqusConstraints::note_end(const Terms& terms) {
   return true;
 }
 
-// *SPRING of a set of SPRINGA: an empty line, and a stiffness.
+// *SPRING of a set of SPRINGA, *DASHPOT of DASHPOTA: an empty line, and a stiffness or a damping.
 void AbaqusConstraints::read_spring(const PlacedCard& placed) {
   const FileCard& card = *placed.card;
   const std::string set = in_capitals(card.option("ELSET"));
-  if (card.data.empty()) file_.fail(card, "it has no stiffness");
-  LineFields of_stiffness(file_, card.data.back());
-  const double stiffness = of_stiffness.real("a stiffness");
+  const bool is_damper = card.keyword == "DASHPOT";
+  if (card.data.empty()) file_.fail(card, is_damper ? "it has no damping" : "it has no stiffness");
+  LineFields fields_of(file_, card.data.back());
+  const double value = fields_of.real(is_damper ? "a damping" : "a stiffness");
   bool has_any = false;
   for (const PlacedCard& other : model_.cards()) {
     if (other.card->keyword != "ELEMENT" || in_capitals(other.card->option("ELSET")) != set) continue;
-    if (in_capitals(other.card->option("TYPE")) != "SPRINGA" || card.data.size() > 2)
-      file_.fail(card, "springs between two nodes (SPRINGA) of one stiffness are read");
+    if (in_capitals(other.card->option("TYPE")) != (is_damper ? "DASHPOTA" : "SPRINGA") || card.data.size() > 2)
+      file_.fail(card, is_damper ? "dashpots between two nodes (DASHPOTA) of one damping are read"
+                                 : "springs between two nodes (SPRINGA) of one stiffness are read");
     for (const DataLine& line : other.card->data) {
       LineFields fields(file_, line);
       fields.whole("the number of an element");
       const int one = end_of(other, fields), to = end_of(other, fields);
-      springs_.push_back({file_.where(line.file, line.line), &line, one, to, stiffness});
+      springs_.push_back(
+          {file_.where(line.file, line.line), &line, one, to, is_damper ? 0.0 : value, is_damper ? value : 0.0});
       has_any = true;
     }
   }
@@ -188,11 +191,11 @@ void AbaqusConstraints::add_spring(const Spring& spring, std::vector<FileSpring>
   const LineFields fields(file_, *spring.line);
   const auto& x = model_.model().nodes;
   const Vec3 along = x[static_cast<size_t>(spring.other)] - x[static_cast<size_t>(spring.one)];
-  if (along.isZero(0.0)) fields.fail("*SPRING: its ends are at one place, and it has no direction");
+  if (along.isZero(0.0)) fields.fail("*SPRING or *DASHPOT: its ends are at one place, and it has no direction");
   std::vector<int> axes;
   for (int d = 0; d < 3; ++d)
     if (std::abs(along[d]) > 1e-9 * along.norm()) axes.push_back(d);
-  FileSpring found{"", "", {spring.stiffness}, {}, frame_along(along.normalized()), spring.where};
+  FileSpring found{"", "", {spring.stiffness}, {spring.damping}, frame_along(along.normalized()), spring.where};
   for (const int node : {spring.one, spring.other}) {
     std::vector<int> nodes{node};
     if (loose_ends_.contains(node)) {
@@ -203,7 +206,7 @@ void AbaqusConstraints::add_spring(const Spring& spring, std::vector<FileSpring>
       for (const int d : axes) {
         const auto mean = ends_as_means_.find({node, d});
         if (mean == ends_as_means_.end() || (d != axes[0] && mean->second != nodes))
-          fields.fail("*SPRING: an end of it is of no cell, is not held along it, and follows no mean");
+          fields.fail("*SPRING or *DASHPOT: an end of it is of no cell, is not held along it, and follows no mean");
         nodes = mean->second;
       }
     }

@@ -33,7 +33,7 @@ class AbaqusConstraints {
  public:
   explicit AbaqusConstraints(AbaqusModel& model);
 
-  // *EQUATION, *MPC or *SPRING. turned: axes of the nodes of *TRANSFORM. Throws InputError with the line.
+  // *EQUATION, *MPC, *SPRING or *DASHPOT. turned: axes of the nodes of *TRANSFORM. Throws InputError with the line.
   void read(const PlacedCard& placed, const std::map<int, Mat3>& turned);
   // Ends of springs that are of no cell are no nodes of a deck: what is held of them is the ground. Are these all such?
   bool hold_ends(const std::array<double, 6>& says, const std::vector<int>& nodes);
@@ -53,7 +53,7 @@ class AbaqusConstraints {
     std::string where;
     const DataLine* line;
     int one, other;
-    double stiffness;
+    double stiffness, damping;
   };
   using Given = std::vector<std::pair<const DataLine*, std::string>>;
 

@@ -30,6 +30,7 @@ class AbaqusDeck : public ImportedDeck {
     write_parts(needs_density());
     write_welds();
     for (const AbaqusJoint& joint : analysis_.joints) write_joint(joint);
+    for (const FileBody& body : analysis_.bodies) put_body(body);
     for (const AbaqusEquation& equation : analysis_.equations) write_equation(equation);
     for (const FileSpring& spring : analysis_.springs)
       if (const std::string name = put_spring(spring, equations_.size() + 1); !name.empty()) equations_.push_back(name);
@@ -78,6 +79,11 @@ class AbaqusDeck : public ImportedDeck {
                        vector(ring.from, "*length"), ring.n);
   }
 
+  static std::string gap_of(const AbaqusJoint& joint) {
+    if (!joint.clearance) return "gap = \"geometry\"";
+    return *joint.clearance == 0.0 ? "closed = true" : fmt::format("gap = {}*length", lua_number(*joint.clearance));
+  }
+
   void write_joint(const AbaqusJoint& joint) {
     const auto one = places(known_face(joint.one), true), other = places(known_face(joint.other), true);
     if (one.size() != 1 || other.size() != 1)
@@ -87,8 +93,8 @@ class AbaqusDeck : public ImportedDeck {
     const std::string more = joint.ring ? ring_of(*joint.ring)
                              : joint.is_tie
                                  ? ""
-                                 : fmt::format(", friction = {}, gap = \"geometry\"", lua_number(joint.friction));
-    if (joint.is_adjusted && !joint.is_tie)
+                                 : fmt::format(", friction = {}, {}", lua_number(joint.friction), gap_of(joint));
+    if (joint.is_adjusted && !joint.is_tie && !joint.clearance)
       leave(
           fmt::format("{}: ADJUST moves nodes that are near onto the other surface; where all of it is meant to touch, "
                       "closed = true takes the place of the gap",
@@ -187,7 +193,7 @@ class AbaqusDeck : public ImportedDeck {
       if (action.kind == Kind::held) continue;
       const std::set<int> points = points_of(action);
       for (const ActingLoad* one : acting_.met_by(action, points, action.kind))
-        if (one->points == points && one->action.along == action.along)
+        if (one->points == points && one->action.along == action.along && one->action.owner == action.owner)
           replaced.insert(one->name);
         else
           leave(fmt::format("{}: it changes a part of what {} says", action.where, one->action.where));

@@ -45,6 +45,7 @@ class AbaqusModel {
   const CardFile& file() const { return file_; }
   const std::vector<PlacedCard>& cards() const { return placed_; }
   ForeignModel& model() { return model_; }
+  double unit() const { return options_.unit; }  // m
 
   // Nodes, or cells, of a field: a number, the name of a set, "instance.name". Throws InputError where it is none;
   // numbers of elements that are no cells answer nothing.

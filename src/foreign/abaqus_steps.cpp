@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "foreign/abaqus_references.hpp"
 #include "foreign/loaded_facets.hpp"
 
 namespace dygita {
@@ -65,6 +66,10 @@ const std::set<std::string> silent = {"NODE",
                                       "SURFACEBEHAVIOR",
                                       "FRICTION",
                                       "ENDSTEP",
+                                      "RIGIDBODY",  // these four are read with their reference nodes
+                                      "COUPLING",
+                                      "KINEMATIC",
+                                      "DISTRIBUTING",
                                       "PHYSICALCONSTANTS",
                                       "CONTROLS",
                                       "USERMATERIAL",
@@ -86,6 +91,13 @@ const std::map<std::string, std::set<std::string>> options_of = {
     {"EQUATION", {}},
     {"MPC", {}},
     {"SPRING", {"ELSET"}},
+    {"CLEARANCE", {"MASTER", "SLAVE", "VALUE"}},
+    {"DASHPOT", {"ELSET"}},
+    {"MASS", {"ELSET"}},
+    {"RIGIDBODY", {"NSET", "ELSET", "REFNODE", "ROTNODE"}},
+    {"COUPLING", {"REFNODE", "SURFACE", "CONSTRAINTNAME"}},
+    {"KINEMATIC", {}},
+    {"DISTRIBUTING", {}},
     {"AMPLITUDE", {"NAME", "TIME", "VALUE", "DEFINITION"}},
     {"STATIC", {"DIRECT", "SOLVER"}},
     {"DYNAMIC", {"DIRECT", "SOLVER", "EXPLICIT", "ALPHA"}},
@@ -105,7 +117,8 @@ constexpr double rough = 1000;  // coefficient of friction: the largest of a dec
 
 class AnalysisReader {
  public:
-  explicit AnalysisReader(AbaqusModel& model) : model_(model), file_(model.file()), constraints_(model) {}
+  explicit AnalysisReader(AbaqusModel& model)
+      : model_(model), file_(model.file()), constraints_(model), references_(model) {}
 
   AbaqusAnalysis read() {
     for (const PlacedCard& placed : model_.cards()) {
@@ -119,8 +132,10 @@ class AnalysisReader {
       if (is_sector_ && step.procedure == "FREQUENCY" && !step.is_of_diameter_0)
         analysis_.untranslated.push_back(
             fmt::format("{}: modes of all nodal diameters: a deck has those of nodal diameter 0", step.where));
+    set_clearances();
     constraints_.finish(analysis_.springs, analysis_.untranslated);
     analysis_.equations = std::move(constraints_.equations);
+    references_.finish(analysis_);
     return std::move(analysis_);
   }
 
@@ -144,10 +159,17 @@ class AnalysisReader {
       return read_temperatures(placed, analysis_.temperatures);
     if (word == "TEMPERATURE") return read_step_temperatures(placed);
     if (word == "TRANSFORM") return note_transform(placed);
-    if (word == "EQUATION" || word == "MPC" || word == "SPRING") {
+    if (word == "EQUATION" || word == "MPC" || word == "SPRING" || word == "DASHPOT") {
       if (!analysis_.steps.empty()) return leave(card, "in a step");
       return constraints_.read(placed, turned_);
     }
+    if (word == "CLEARANCE") return note_clearance(card);
+    if (word == "PRE-TENSIONSECTION")
+      return leave(
+          card,
+          "a deck cuts no part: make the cells on either side of the surface two *SOLID SECTIONs; the weld between "
+          "the two parts then takes load.preload with the force of the *CLOAD");
+    if (word == "MASS") return references_.read_mass(placed);
     if (!silent.contains(word)) leave(card, "a deck has no word for it");
   }
 
@@ -329,6 +351,7 @@ class AnalysisReader {
       if (!fields.next(last) || last.empty()) last = first;
       const auto [from, to] = directions(fields, first, last);
       const double by = fields.next(value) && !value.empty() ? fields.real_of(value, "a displacement") : 0.0;
+      if (is_of_reference(placed, line, true, what, {from, to}, by)) continue;
       const auto [known, is_new] = by_field.try_emplace(std::string(what), std::array<double, 6>{});
       if (is_new) order.emplace_back(what);
       line_of.try_emplace(std::string(what), &line);
@@ -365,6 +388,7 @@ class AnalysisReader {
       fields.next(what);
       const long d = fields.whole("a direction");
       const double by = fields.real("a force");
+      if (d >= 1 && d <= 6 && is_of_reference(placed, line, false, what, {d, d}, by)) continue;
       if (d < 1 || d > 3) fields.fail(fmt::format("*CLOAD: direction {}: forces are along 1 to 3", d));
       std::array<double, 6> says{};
       says[static_cast<size_t>(d) - 1] = 1;
@@ -372,6 +396,16 @@ class AnalysisReader {
       if (by != 0.0) note(sayings, placed, line, what, says);
     }
     add_actions(placed, FileAction::Kind::force, "cload", sayings);
+  }
+
+  bool is_of_reference(const PlacedCard& placed, const DataLine& line, bool is_held, std::string_view what,
+                       std::pair<long, long> directions, double by) {
+    const std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), what);
+    const bool is_turned = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return turned_.contains(node); });
+    if (!references_.read({placed, line, static_cast<int>(analysis_.steps.size()) - 1}, is_held, nodes, directions, by))
+      return false;
+    if (is_turned) leave(*placed.card, "a reference node in axes of *TRANSFORM");
+    return true;
   }
 
   FileAction pressure(const FileCard& card, double by, const DataLine& line) const {
@@ -494,6 +528,30 @@ class AnalysisReader {
     }
   }
 
+  void note_clearance(const FileCard& card) {
+    const std::string value = card.option("VALUE");
+    const DataLine line{value, card.file, card.line};
+    if (!analysis_.steps.empty()) return leave(card, "in a step");
+    const double clearance = LineFields(file_, line).real_of(value, "VALUE = a distance");
+    if (clearance < 0.0) return leave(card, "an overlap");
+    clearances_.push_back({&card, clearance, false});
+  }
+
+  // Contact pairs are of two surfaces, in either order.
+  void set_clearances() {
+    for (Clearance& clearance : clearances_) {
+      const std::string master = in_capitals(clearance.card->option("MASTER")),
+                        slave = in_capitals(clearance.card->option("SLAVE"));
+      for (AbaqusJoint& joint : analysis_.joints) {
+        const std::string one = in_capitals(joint.one), other = in_capitals(joint.other);
+        if (joint.is_tie || !((one == slave && other == master) || (one == master && other == slave))) continue;
+        joint.clearance = clearance.by;
+        clearance.is_met = true;
+      }
+      if (!clearance.is_met) leave(*clearance.card, "there is no contact between its surfaces");
+    }
+  }
+
   // Modes of all sectors alike are those of nodal diameter 0.
   void note_diameters(const FileCard& card) {
     for (const char* end : {"NMIN", "NMAX"})
@@ -520,12 +578,20 @@ class AnalysisReader {
     }
   }
 
+  struct Clearance {
+    const FileCard* card;
+    double by;
+    bool is_met;
+  };
+
   AbaqusModel& model_;
   const CardFile& file_;
   AbaqusAnalysis analysis_;
+  std::vector<Clearance> clearances_;
   bool is_sector_ = false;      // of a ring
   std::map<int, Mat3> turned_;  // axes of the nodes of *TRANSFORM
   AbaqusConstraints constraints_;
+  AbaqusReferences references_;
 };
 
 }  // namespace

@@ -28,7 +28,8 @@ struct AbaqusJoint {
   bool is_tie = false, is_adjusted = false;
   std::string one, other;  // faces
   double friction = 0.0;
-  std::optional<AbaqusRing> ring;  // of a tie between the cut faces of a sector
+  std::optional<double> clearance;  // everywhere, in place of the gap of the geometry
+  std::optional<AbaqusRing> ring;   // of a tie between the cut faces of a sector
   std::string where;
 };
 
@@ -39,6 +40,7 @@ struct AbaqusAnalysis {
   std::vector<AbaqusJoint> joints;
   std::vector<AbaqusEquation> equations;
   std::vector<FileSpring> springs;
+  std::vector<FileBody> bodies;
   std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals
   std::vector<std::string> remarks;                       // what is said otherwise
   std::vector<std::string> untranslated;                  // "plate.inp:45: *SPRING: ..."

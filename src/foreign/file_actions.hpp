@@ -9,10 +9,11 @@
 namespace dygita {
 
 struct FileAction {
-  enum class Kind { held, moved, force, pressure, traction, gravity, spin };
+  enum class Kind { held, moved, force, resultant, pressure, traction, gravity, spin };
   Kind kind;
   std::string place;  // a set of nodes or a face of the model; empty: everywhere
-  Vec3 value;         // of gravity, a traction, a force on each node, a motion; [0] of a pressure; the axis of a spin
+  Vec3 value;  // of gravity, a traction, a force on each node or on a face, a motion; [0] of a pressure; the axis of a
+               // spin
   std::array<bool, 3> along = {};
   std::string amplitude;        // its name; empty: none
   std::string where;            // "plate.inp:45"
@@ -21,19 +22,21 @@ struct FileAction {
   Vec3 through = Vec3::Zero();  // the same, a point of its axis
 
   bool stays = false;  // held where it has come to
+  int owner = -1;      // a node whose load it shares
 
-  bool is_on_faces() const { return kind == Kind::pressure || kind == Kind::traction; }
+  bool is_on_faces() const { return kind == Kind::pressure || kind == Kind::traction || kind == Kind::resultant; }
   bool is_everywhere() const { return kind == Kind::gravity || kind == Kind::spin; }
 };
 
 // A mass with its inertia behind nodes, which it moves rigidly or whose mean it moves with.
 struct FileBody {
   std::string place;  // a set of nodes of the model, which has a face
-  double mass;
-  Mat3 inertia;  // about its centre of mass
-  Vec3 at;       // that
-  bool is_mean;  // of the nodes alike
+  double mass;        // 0: none, and inertia is the square of a radius
+  Mat3 inertia;       // about its centre of mass
+  Vec3 at;            // that
+  bool is_mean;       // of the nodes alike
   std::string where;
+  std::string weights = "nodes";  // of a mean, or "area"
 };
 
 // Springs between the mean motions of two sets of nodes, or of one and the ground: along axes, and about them.

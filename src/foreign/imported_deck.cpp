@@ -165,10 +165,14 @@ std::string ImportedDeck::put_spring(const FileSpring& given, size_t number) {
   std::string along;
   for (size_t i = 0; i < 6; ++i) {
     const std::string key = (i < 3 ? "" : "about_") + std::string(1, axis_names[i % 3]), unit = i < 3 ? "/" : "*";
-    if (spring.stiffness[i] == 0.0 && spring.damping[i] != 0.0)
-      leave(fmt::format("{}: a damper without a spring", spring.where));
-    if (spring.stiffness[i] == 0.0) continue;
-    along += fmt::format(", {} = {}*force{}length", key, lua_number(spring.stiffness[i]), unit);
+    if (spring.stiffness[i] == 0.0 && spring.damping[i] == 0.0) continue;
+    if (spring.stiffness[i] == 0.0) {
+      remarks_.push_back(
+          fmt::format("{}: a damper alone: a spring of 1e-6 N/m (or N m) stands beside it", spring.where));
+      along += fmt::format(", {} = 1e-6", key);
+    } else {
+      along += fmt::format(", {} = {}*force{}length", key, lua_number(spring.stiffness[i]), unit);
+    }
     if (spring.damping[i] != 0.0)
       along += fmt::format(", {}_damping = {}*force*time{}length", key, lua_number(spring.damping[i]), unit);
   }
@@ -180,6 +184,44 @@ std::string ImportedDeck::put_spring(const FileSpring& given, size_t number) {
   put("local {} = support.spring{{ name = {}, on = {{ {} }}{} }}  -- {}", name, lua_quoted(name), comma_list(on), along,
       spring.where);
   return name;
+}
+
+// Has the face of a body all of its nodes? Those inside follow where the whole of the part's surface does.
+bool ImportedDeck::is_whole_face(const FileBody& body) const {
+  for (const ForeignPart& part : parts_) {
+    const auto region = part.regions.find(body.place);
+    const auto face = part.mesh->faces.find(body.place);
+    if (region == part.regions.end() || face == part.mesh->faces.end()) continue;
+    const size_t n = region->second.size();
+    if (nodes_of(face->second).size() != n && n != part.file_nodes.size()) return false;
+  }
+  return true;
+}
+
+void ImportedDeck::put_body(const FileBody& body) {
+  const std::vector<std::string> faces = places(body.place, true);
+  if (faces.size() != 1)
+    return leave(
+        fmt::format("{}: the nodes that a body moves are a face of {} parts, not of one", body.where, faces.size()));
+  if (!is_whole_face(body))
+    return leave(fmt::format("{}: some of the nodes that a body moves are on no facet of them", body.where));
+  constexpr double negligible = 1e-9;  // kg, the smallest of a deck
+  const bool has_mass = body.mass != 0.0;
+  const std::string unit = has_mass ? "*force/acceleration" : "";
+  const Mat3 j = has_mass ? body.inertia : Mat3(negligible * body.inertia);
+  std::vector<std::string> moments, at;
+  for (const double value : {j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2)})
+    moments.push_back(lua_number(value) + unit + "*length^2");
+  for (const double value : {body.at[0], body.at[1], body.at[2]}) at.push_back(lua_number(value) + "*length");
+  const std::string name = names_.of("body", body.place), joint = names_.of("feet", body.place);
+  put("local {} = substructure.rigid{{ name = {}, on = {}, mass = {},\n  inertia = {{ {} }}, at = {{ {} }} }}  -- {}",
+      name, lua_quoted(name), faces[0], lua_number(has_mass ? body.mass : negligible) + unit, comma_list(moments),
+      comma_list(at), body.where);
+  put("local {} = interface.bonded{{ name = {}, between = {{ {}, {}:face {} }}{} }}", joint, lua_quoted(joint),
+      faces[0], name, lua_quoted(body.place),
+      body.is_mean ? fmt::format(", motion = \"mean\", weights = \"{}\"", body.weights) : "");
+  part_names_.push_back(name);
+  interfaces_.push_back(joint);
 }
 
 int ImportedDeck::part_with(const std::string& place, int preferred) const {
@@ -285,6 +327,8 @@ std::string ImportedDeck::text_of(const FileAction& action, const std::string& o
       by += fmt::format(", {} = {}", axis_names[d], value_of(action.value[d], "length", action));
     if (action.kind == Kind::force)
       by += fmt::format(", {} = {}", axis_names[d], value_of(action.n_nodes * action.value[d], "force", action));
+    if (action.kind == Kind::resultant)
+      by += fmt::format(", {} = {}", axis_names[d], value_of(action.value[d], "force", action));
     if (action.kind == Kind::traction)
       by += fmt::format(", {} = {}", axis_names[d], value_of(action.value[d], "pressure", action));
     if (action.kind == Kind::gravity)
@@ -298,7 +342,8 @@ std::string ImportedDeck::text_of(const FileAction& action, const std::string& o
     return fmt::format("load.pressure{{ {}, history = {} }}", on_list, value_of(action.value[0], "pressure", action));
   if (action.kind == Kind::moved) return fmt::format("load.displacement{{ {}{} }}", on_list, by);
   if (action.kind == Kind::traction) return fmt::format("load.traction{{ {}{} }}", on_list, by);
-  if (action.kind == Kind::force) return fmt::format("load.force{{ {}{} }}", on_list, by);
+  if (action.kind == Kind::force || action.kind == Kind::resultant)
+    return fmt::format("load.force{{ {}{} }}", on_list, by);
   const bool is_whole = action.along == std::array<bool, 3>{true, true, true};
   return fmt::format("support.{}{{ name = {}, {}{} }}", is_whole ? "fixed" : "held", lua_quoted(name), on_list,
                      is_whole ? "" : by);

@@ -45,6 +45,8 @@ class ImportedDeck {
   void write_parts(bool needs_density);
   // Parts that share the nodes of facets in the file are one body there.
   void write_welds();
+  // A rigid part behind a face, and the bond between them.
+  void put_body(const FileBody& body);
   // Its name in the deck; empty where no deck says it.
   std::string put_spring(const FileSpring& spring, size_t number);
   void add(const std::vector<FileAction>& actions, std::vector<std::string>& supports, std::vector<std::string>& loads);
@@ -74,6 +76,7 @@ class ImportedDeck {
   std::pair<size_t, int> shared(const ForeignPart& one, const ForeignPart& other) const;
   // A place has one support: directions in which several lines hold it come together, with those held before.
   std::vector<FileAction> merged(const std::vector<FileAction>& actions, std::vector<std::string>& supports);
+  bool is_whole_face(const FileBody& body) const;
   int n_nodes_of(const std::string& place) const;
   static std::string spin_of(const FileAction& action);
   std::string text_of(const FileAction& action, const std::string& on, const std::string& name);

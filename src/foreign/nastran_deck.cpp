@@ -25,7 +25,7 @@ class NastranDeck : public ImportedDeck {
     });
     write_parts(has_gravity || analysis_.kind == NastranAnalysis::Kind::modes);
     write_welds();
-    for (const FileBody& body : analysis_.bodies) write_body(body);
+    for (const FileBody& body : analysis_.bodies) put_body(body);
     for (const FileSpring& spring : analysis_.springs)
       if (const std::string name = put_spring(spring, springs_.size() + 1); !name.empty()) springs_.push_back(name);
     if (analysis_.kind != NastranAnalysis::Kind::other)
@@ -59,26 +59,6 @@ class NastranDeck : public ImportedDeck {
     put("  return r, {{ a[2]*r[3] - a[3]*r[2], a[3]*r[1] - a[1]*r[3], a[1]*r[2] - a[2]*r[1] }}");
     put("end");
     return ", orientation = " + name;
-  }
-
-  void write_body(const FileBody& body) {
-    const std::vector<std::string> faces = places(body.place, true);
-    if (faces.size() != 1)
-      return leave(fmt::format("{}: CONM2: the nodes of its {} are a face of {} parts, not of one", body.where,
-                               body.is_mean ? "RBE3" : "RBE2", faces.size()));
-    const Mat3& j = body.inertia;
-    std::vector<std::string> moments, at;
-    for (const double value : {j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2)})
-      moments.push_back(lua_number(value) + "*force/acceleration*length^2");
-    for (const double value : {body.at[0], body.at[1], body.at[2]}) at.push_back(lua_number(value) + "*length");
-    const std::string name = names_.of("body", body.place), joint = names_.of("feet", body.place);
-    put("local {} = substructure.rigid{{ name = {}, on = {}, mass = {}*force/acceleration,\n"
-        "  inertia = {{ {} }}, at = {{ {} }} }}  -- {}",
-        name, lua_quoted(name), faces[0], lua_number(body.mass), comma_list(moments), comma_list(at), body.where);
-    put("local {} = interface.bonded{{ name = {}, between = {{ {}, {}:face {} }}{} }}", joint, lua_quoted(joint),
-        faces[0], name, lua_quoted(body.place), body.is_mean ? ", motion = \"mean\", weights = \"nodes\"" : "");
-    part_names_.push_back(name);
-    interfaces_.push_back(joint);
   }
 
   // Names of the supports of a set, which cases share.

@@ -213,5 +213,151 @@ TEST(WrittenElsewhere, nastran_masses_on_bushings_have_the_frequencies_by_hand) 
   }
 }
 
+// A bar of 100 x 10 x 10 mm, clamped at x = 0, without lateral contraction, so that rectangular cells are exact under
+// axial force and moment. Its end is the surface END and the set TIP; 901 and 902 are nodes of no cell.
+std::string clamped_bar(const std::string& rest, const Vec3& reference) {
+  std::string text = "*NODE\n";
+  const auto node = [](int i, int j, int k) { return 1 + i + 11 * (j + 3 * k); };
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 11; ++i) text += fmt::format("{},{}.,{}.,{}.\n", node(i, j, k), 10 * i, 5 * j, 5 * k);
+  text += fmt::format("901,{},{},{}\n902,{},{},{}\n", reference[0], reference[1], reference[2], 0.0, 0.0, 0.0);
+  text += "*ELEMENT, TYPE=C3D8I, ELSET=E\n";
+  std::string tip = "*ELSET, ELSET=TIPS\n", low = "*NSET, NSET=ROOT\n", high = "*NSET, NSET=TIP\n";
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 10; ++i)
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", 1 + i + 10 * (j + 2 * k), node(i, j, k), node(i + 1, j, k),
+                            node(i + 1, j + 1, k), node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                            node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1));
+  for (int j = 0; j < 4; ++j) tip += fmt::format("{}\n", 10 * (j + 1));
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j) {
+      low += fmt::format("{}\n", node(0, j, k));
+      high += fmt::format("{}\n", node(10, j, k));
+    }
+  return text + tip + low + high +
+         "*SURFACE, NAME=END\nTIPS, S4\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n200000., 0.\n"
+         "*DENSITY\n8.E-9\n*BOUNDARY\nROOT, 1, 3\n" +
+         rest;
+}
+
+DeckRun run_bar(const std::string& rest, const Vec3& reference) {
+  const WrittenFile inp(clamped_bar(rest, reference), "bar.inp");
+  std::string deck = deck_of_abaqus({inp.path(), "mm t s", {}});
+  const std::string frames = "output.vtk{ frames = 1 }";
+  if (deck.find(frames) != std::string::npos)
+    deck = replaced(deck, frames,
+                    "output.history{ name = \"end\", on = part_e:face \"END\", quantity = \"displacement\" }");
+  return run_text(deck).at(0);
+}
+
+const std::string rigid = "*RIGID BODY, NSET=TIP, REF NODE=901, ROT NODE=902\n",
+                  coupled = "*COUPLING, REF NODE=901, SURFACE=END, CONSTRAINT NAME=C\n*KINEMATIC\n1, 3\n",
+                  spread = "*COUPLING, REF NODE=901, SURFACE=END, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 3\n";
+constexpr double young = 2e11, area = 1e-4, bending = 1e-8 / 12, length = 0.1;  // SI; the second moment of area
+
+// 40 N along the bar at (110, 3, 12) mm, 7 mm above and 2 mm beside its middle, and 100 N mm about y.
+TEST(WrittenElsewhere, imported_rigid_ends_are_loaded_at_their_reference_node) {
+  for (const std::string& end : {rigid, coupled}) {
+    SCOPED_TRACE(end);
+    const std::string about_y = end == rigid ? "902, 2, 100.\n" : "901, 5, 100.\n";
+    const DeckRun run =
+        run_bar(end + "*STEP\n*STATIC\n*CLOAD\n901, 1, 40.\n" + about_y + "*END STEP\n", {110.0, 3.0, 12.0});
+    const double arm = length * length / (2 * young * bending), moment_y = 40 * 7e-3 + 0.1, moment_z = 40 * 2e-3;
+    EXPECT_NEAR(run.column("end", "x").back(), 40 * length / (young * area), 1e-5 * 2e-7);
+    EXPECT_NEAR(run.column("end", "z").back(), -moment_y * arm, 1e-5 * moment_y * arm);
+    EXPECT_NEAR(run.column("end", "y").back(), moment_z * arm, 1e-5 * moment_y * arm);
+  }
+}
+
+// The reference node, 20 mm above the middle, is held along the bar: a moment bends it against an axial force.
+TEST(WrittenElsewhere, imported_rigid_ends_are_held_at_their_reference_node) {
+  for (const std::string& end : {rigid, coupled}) {
+    SCOPED_TRACE(end);
+    const std::string about_y = end == rigid ? "902, 2, 100.\n" : "901, 5, 100.\n";
+    const DeckRun run =
+        run_bar(end + "*STEP\n*STATIC\n*BOUNDARY\n901, 1\n*CLOAD\n" + about_y + "*END STEP\n", {130.0, 5.0, 25.0});
+    const double h = 20e-3, moment = 0.1, force = -h * moment / (bending / area + h * h);
+    EXPECT_NEAR(run.column("end", "x").back(), force * length / (young * area),
+                -1e-4 * force * length / (young * area));
+    const double w = -(moment + force * h) * length * length / (2 * young * bending);
+    EXPECT_NEAR(run.column("end", "z").back(), w, -1e-4 * w);
+  }
+  const DeckRun moved =
+      run_bar(coupled + "*STEP\n*STATIC\n*BOUNDARY\n901, 1, 1, 0.02\n901, 2, 6\n*END STEP\n", {110.0, 3.0, 12.0});
+  EXPECT_NEAR(moved.column("end", "x").back(), 2e-5, 1e-12);
+  EXPECT_NEAR(moved.column("end", "z").back(), 0.0, 1e-12);
+}
+
+TEST(WrittenElsewhere, imported_forces_are_spread_over_the_surface_of_their_reference_node) {
+  const DeckRun run = run_bar(spread + "*STEP\n*STATIC\n*CLOAD\n901, 1, 40.\n*END STEP\n", {100.0, 5.0, 5.0});
+  EXPECT_NEAR(run.column("end", "x").back(), 40 * length / (young * area), 1e-6 * 2e-7);
+}
+
+// A mass of 25 times the bar's, on its end: along the bar it swings on k = E A / L with a third of the bar.
+TEST(WrittenElsewhere, imported_masses_swing_on_what_their_reference_node_joins) {
+  const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=M\n990, 901\n*MASS, ELSET=M\n2.E-3\n";
+  for (const std::string& end : {rigid, coupled, spread}) {
+    SCOPED_TRACE(end);
+    const DeckRun run = run_bar(end + mass + "*STEP\n*FREQUENCY\n6\n*END STEP\n", {100.0, 5.0, 5.0});
+    const double expected = std::sqrt(young * area / length / (2.0 + 0.08 / 3)) / (2 * std::numbers::pi);
+    double off = expected;
+    for (const double found : run.column("modes", "frequency")) off = std::min(off, std::abs(found - expected));
+    EXPECT_LT(off, 1e-3 * expected);
+  }
+}
+
+// A block of 8e-9 x 20^3 t on a dashpot alone, pushed with 2 N from rest: x = F/c (t - m/c (1 - exp(-c t / m))).
+TEST(WrittenElsewhere, imported_dashpots_brake_by_the_velocity_of_their_ends) {
+  const AbaqusBlock block(abaqus_shapes()[0], 2);
+  std::string low = "*EQUATION\n10\n902,1,9.", all = "*NSET, NSET=EVERY\n";
+  int n_low = 0;
+  for (const auto& [node, x] : block.places()) {
+    all += std::to_string(node) + "\n";
+    if (x[0] < 0.1 && ++n_low > 0) low += fmt::format("{}{},1,-1.", n_low % 4 == 0 ? ",\n" : ",", node);
+  }
+  ASSERT_EQ(n_low, 9);
+  const WrittenFile inp(
+      block.text() + steel + all +
+          "*NODE\n901,-9.,0.,0.\n902,-1.,0.,0.\n*ELEMENT, TYPE=DASHPOTA, ELSET=D\n900,901,902\n"
+          "*BOUNDARY\n901,1,3\n902,2,3\nEVERY,2,3\n*DASHPOT, ELSET=D\n\n0.5\n" +
+          low + "\n*STEP\n*DYNAMIC, DIRECT\n1.E-6,2.E-4\n*DLOAD\nE, GRAV, 31250000., 1., 0., 0.\n*END STEP\n",
+      "brake.inp");
+  const DeckRun run = run_text(replaced(deck_of_abaqus({inp.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+                                        "output.history{ name = \"low\", on = part_e:region \"X0\", quantity = "
+                                        "\"displacement\" }"))
+                          .at(0);
+  const double mass = 0.064, force = mass * 31250, c = 500.0, t = 2e-4, rate = c / mass;
+  const double expected = force / c * (t - (1 - std::exp(-rate * t)) / rate);
+  EXPECT_NEAR(run.column("low", "x").back(), expected, 1e-4 * expected);
+}
+
+// Two bars end to end, drawn 2 um apart and said to be 1 um apart: moved by 4 um they are pressed by the rest.
+TEST(WrittenElsewhere, imported_clearances_take_the_place_of_the_gap_that_is_drawn) {
+  const auto end_of = [](const std::string& clearance) {
+    const WrittenFile inp(
+        "*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,0,0,10\n6,10,0,10\n7,10,10,10\n8,0,10,10\n"
+        "11,0,0,10.002\n12,10,0,10.002\n13,10,10,10.002\n14,0,10,10.002\n15,0,0,20.002\n16,10,0,20.002\n17,10,10,20."
+        "002\n"
+        "18,0,10,20.002\n*ELEMENT, TYPE=C3D8I, ELSET=LOW\n1,1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=C3D8I, ELSET=HIGH\n"
+        "2,11,12,13,14,15,16,17,18\n*NSET, NSET=FOOT\n1,2,3,4\n*NSET, NSET=HEAD\n15,16,17,18\n*NSET, "
+        "NSET=ALL\n1,2,3,4,5,"
+        "6,7,8,11,12,13,14,15,16,17,18\n*SURFACE, NAME=UP\nLOW, S2\n*SURFACE, NAME=DOWN\nHIGH, S1\n*SOLID SECTION, "
+        "ELSET=LOW, MATERIAL=M\n*SOLID SECTION, ELSET=HIGH, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n200000., 0.\n"
+        "*BOUNDARY\nALL, 1, 2\nFOOT, 3\n*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nDOWN, UP\n" +
+            clearance + "*STEP\n*STATIC\n*BOUNDARY\nHEAD, 3, 3, -0.004\n*END STEP\n",
+        "apart.inp");
+    const DeckRun run = run_text(replaced(deck_of_abaqus({inp.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+                                          "output.history{ name = \"up\", on = part_low:face \"UP\", quantity = "
+                                          "\"displacement\" }"))
+                            .at(0);
+    return run.column("up", "z").back();
+  };
+  EXPECT_NEAR(end_of(""), -1e-6, 1e-10);
+  EXPECT_NEAR(end_of("*CLEARANCE, MASTER=UP, SLAVE=DOWN, VALUE=0.001\n"), -1.5e-6, 1e-10);
+  EXPECT_NEAR(end_of("*CLEARANCE, MASTER=UP, SLAVE=DOWN, VALUE=0.\n"), -2e-6, 1e-10);
+}
+
 }  // namespace
 }  // namespace dygita::test::written_elsewhere_tests

@@ -137,6 +137,86 @@ TEST(AbaqusDeck, has_a_sector_of_a_ring) {
   expect_in(modes(""), "modes of all nodal diameters");
 }
 
+// 901 is 10 above the middle of the top, 902 turns it; TOP and its nodes T are a face.
+TEST(AbaqusDeck, has_rigid_bodies_and_couplings_by_their_reference_nodes) {
+  const AbaqusBlock block(abaqus_shapes()[1], 1);
+  std::string top = "*NSET, NSET=T\n", corner;
+  for (const auto& [node, x] : block.places())
+    if (x[2] > 9.9)
+      top += std::to_string(node) + "\n";
+    else if (x[0] > 9.9)
+      corner = std::to_string(node);  // off the facet of X0
+  const std::string nodes = "*NODE\n901,5.,5.,20.\n902,0.,0.,0.\n903,5.,5.,10.\n" + top,
+                    rigid_top = nodes + "*RIGID BODY, NSET=T, REF NODE=901, ROT NODE=902\n*BOUNDARY\nX0, 1, 3\n",
+                    step = "*STEP\n*STATIC\n";
+  const auto deck_of = [&](const std::string& rest) {
+    const WrittenFile written(block.text() + steel + rest + "*END STEP\n", "block.inp");
+    return deck_of_abaqus({written.path(), "mm t s", {}});
+  };
+  const auto expect_whole = [](const std::string& deck) {
+    EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  };
+  std::string deck = deck_of(rigid_top + step + "*CLOAD\n901, 3, 8.\n902, 1, 4.\n");
+  expect_whole(deck);
+  expect_in(deck, " = substructure.rigid{ name = \"body_rigid_body_");
+  expect_in(deck, ", at = { 5*length, 5*length, 20*length } }");
+  expect_in(deck, "no mass: a microgram takes its place");
+  expect_in(deck, "interface.bonded{ name = \"feet_rigid_body_");
+  deck = deck_of(rigid_top + step + "*BOUNDARY\n901, 1, 3\n902, 1, 3\n*CLOAD\n901, 1, 3.\n");
+  expect_whole(deck);
+  expect_in(deck, "support.fixed{ name = \"support_rigid_body_");
+  expect_in(deck, "*CLOAD on a node that is held moves nothing");
+  EXPECT_EQ(deck.find("substructure.rigid"), std::string::npos) << deck;
+  deck = deck_of(rigid_top + step + "*BOUNDARY\n901, 2\n902, 3\n");
+  expect_whole(deck);
+  expect_in(deck, "supports = { support_x0, equation_1, equation_2 }");
+  const std::string coupling = nodes + "*COUPLING, REF NODE=903, SURFACE=TOP, CONSTRAINT NAME=C\n",
+                    held = "*BOUNDARY\nX0, 1, 3\n";
+  deck = deck_of(coupling + "*KINEMATIC\n3, 3\n" + held + "903, 1, 6\n" + step);
+  expect_whole(deck);
+  expect_in(deck, "\" }, z = true }");
+  deck = deck_of(coupling + "*DISTRIBUTING\n1, 3\n" + held + step + "*CLOAD\n903, 3, 8.\n");
+  expect_whole(deck);
+  expect_in(deck, "load.force{ on = { part_e:face \"TOP\" }, z = 8*force }");
+  const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=M\n990, 903\n*MASS, ELSET=M\n2.\n";
+  deck = deck_of(coupling + "*DISTRIBUTING\n1, 3\n" + held + mass + "*STEP\n*FREQUENCY\n3\n");
+  expect_whole(deck);
+  expect_in(deck, "mass = 2*force/acceleration,");
+  expect_in(deck, ", motion = \"mean\", weights = \"area\" }");
+  expect_whole(deck_of(nodes + mass + held + step));  // statics depend on no mass
+  for (const std::string& doubtful :
+       {nodes + mass + held + "*STEP\n*FREQUENCY\n3\n",                         // a mass on a node of no body
+        rigid_top + step + "*BOUNDARY\n901, 3, 3, 0.5\n",                       // one direction moved
+        rigid_top + step + "*BOUNDARY\n901, 1, 3\n902, 1, 2\n902, 3, 3, .1\n",  // turned
+        rigid_top + step + "*CLOAD\n901, 5, 8.\n",                              // a moment beside a ROT NODE
+        rigid_top + step + "*END STEP\n" + step + "*BOUNDARY\n901, 1\n",        // held later
+        rigid_top + step + "*CLOAD\n901, 1, 8.\n*END STEP\n" + step + "*CLOAD\n901, 2, 8.\n",
+        coupling + held + step,  // neither kind
+        coupling + "*KINEMATIC\n3, 3\n" + held + step, coupling + "*DISTRIBUTING\n1, 3\n" + held + "903, 1\n" + step,
+        coupling + "*DISTRIBUTING\n1, 3\n" + held + step + "*CLOAD\n903, 4, 8.\n",
+        nodes + "*COUPLING, REF NODE=901, SURFACE=TOP, CONSTRAINT NAME=C\n*DISTRIBUTING\n" + held + step +
+            "*CLOAD\n901, 1, 8.\n",
+        nodes + "*NSET, NSET=X0\n" + corner + "\n*RIGID BODY, NSET=X0, REF NODE=901\n" + held + step,
+        nodes + "*RIGID BODY, ELSET=NOWHERE, REF NODE=901\n" + held + step}) {
+    SCOPED_TRACE(doubtful.substr(nodes.size()));
+    expect_in(deck_of(doubtful), "NOT TRANSLATED");
+  }
+}
+
+TEST(AbaqusDeck, says_what_a_reader_can_do_of_clearances_dashpots_and_tightened_bolts) {
+  const std::string step = "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*END STEP\n";
+  expect_in(imported("*CLEARANCE, MASTER=TOP, SLAVE=TOP, VALUE=0.1\n" + step),
+            "there is no contact between its surfaces");
+  expect_in(imported("*CLEARANCE, MASTER=TOP, SLAVE=TOP, VALUE=-0.1\n" + step), "an overlap");
+  expect_in(imported("*PRE-TENSION SECTION, SURFACE=TOP, NODE=1\n0., 0., 1.\n" + step),
+            "the weld between the two parts then takes load.preload");
+  const std::string ends =
+      "*NODE\n901,-5.,0.,0.\n902,-5.,0.,0.\n*ELEMENT, TYPE=DASHPOTA, ELSET=S\n900,901,7\n*BOUNDARY\n901,1,3\n";
+  expect_in(imported(ends + "*DASHPOT, ELSET=S\n\n0.5\n" + step), "_damping = 0.5*force*time/length");
+  expect_in(imported(ends + "*SPRING, ELSET=S\n\n0.5\n" + step), "springs between two nodes (SPRINGA)");
+  expect_in(imported("*DASHPOT, ELSET=E\n3\n10.\n" + step), "dashpots between two nodes (DASHPOTA)");
+}
+
 TEST(AbaqusDeck, holds_nodes_where_they_are) {
   const std::string deck = imported(
       "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 3, -2.5\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY, FIXED\n7, 1, "
