@@ -54,6 +54,10 @@ AbaqusReferences::AbaqusReferences(AbaqusModel& model) : model_(model), file_(mo
   }
 }
 
+bool AbaqusReferences::has_read(const std::string& keyword) {
+  return keyword == "RIGIDBODY" || keyword == "COUPLING" || keyword == "KINEMATIC" || keyword == "DISTRIBUTING";
+}
+
 int AbaqusReferences::node_of(const PlacedCard& placed, const char* option) const {
   const std::string given = placed.card->option(option);
   const LineFields fields(file_, {given, placed.card->file, placed.card->line});

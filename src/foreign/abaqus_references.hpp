@@ -18,6 +18,7 @@ class AbaqusReferences {
  public:
   // Of all cards of the model; what cannot be read is told by finish.
   explicit AbaqusReferences(AbaqusModel& model);
+  static bool has_read(const std::string& keyword);
 
   // A line of *BOUNDARY or *CLOAD (is_held) on directions from ... to of these nodes, in a step (-1: before the first).
   // False where none of them is a reference. Throws InputError with the line.

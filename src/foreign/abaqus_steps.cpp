@@ -66,10 +66,6 @@ const std::set<std::string> silent = {"NODE",
                                       "SURFACEBEHAVIOR",
                                       "FRICTION",
                                       "ENDSTEP",
-                                      "RIGIDBODY",  // these four are read with their reference nodes
-                                      "COUPLING",
-                                      "KINEMATIC",
-                                      "DISTRIBUTING",
                                       "PHYSICALCONSTANTS",
                                       "CONTROLS",
                                       "USERMATERIAL",
@@ -170,7 +166,7 @@ class AnalysisReader {
           "a deck cuts no part: make the cells on either side of the surface two *SOLID SECTIONs; the weld between "
           "the two parts then takes load.preload with the force of the *CLOAD");
     if (word == "MASS") return references_.read_mass(placed);
-    if (!silent.contains(word)) leave(card, "a deck has no word for it");
+    if (!silent.contains(word) && !AbaqusReferences::has_read(word)) leave(card, "a deck has no word for it");
   }
 
   void leave(const FileCard& card, const std::string& why) {

@@ -230,30 +230,37 @@ std::string complaint(const Problem& problem) {
   return "";
 }
 
-// Four cubes around a line; a law between c and d where the others are tied.
-Problem four_cubes(const std::vector<LawPtr>& laws) {
+// Two towers of cubes, side by side: bonded but for contact where the second cubes touch.
+Problem towers(int height, int n_cells) {
   Problem problem;
-  const BlockPtr a = cube("a", 0, 0, 0), b = cube("b", 1, 0, 0), c = cube("c", 0, 0, 1), d = cube("d", 1, 0, 1);
-  problem.substructures = {a, b, c, d};
-  problem.interfaces = {interface("ab", face(a, "xmax"), face(b, "xmin"), bonded()),
-                        interface("ac", face(a, "zmax"), face(c, "zmin"), bonded()),
-                        interface("bd", face(b, "zmax"), face(d, "zmin"), bonded())};
-  for (const LawPtr& law : laws)
-    problem.interfaces.push_back(interface("cd " + law->word(), face(c, "xmax"), face(d, "xmin"), law));
+  const auto join = [&](const Face& one, const Face& other, LawPtr law) {
+    problem.interfaces.push_back(interface(one.part->name + other.part->name, one, other, std::move(law)));
+  };
+  BlockPtr below_left, below_right;
+  for (int k = 0; k < height; ++k) {
+    const BlockPtr left = cube("l" + std::to_string(k), 0, 0, k, n_cells);
+    const BlockPtr right = cube("r" + std::to_string(k), 1, 0, k, n_cells);
+    problem.substructures.insert(problem.substructures.end(), {left, right});
+    join(face(left, "xmax"), face(right, "xmin"), k == 1 ? contact(0.1) : bonded());
+    if (k > 0) join(face(below_left, "zmax"), face(left, "zmin"), bonded());
+    if (k > 0) join(face(below_right, "zmax"), face(right, "zmin"), bonded());
+    below_left = left;
+    below_right = right;
+  }
   problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   return problem;
 }
 
 TEST(Exchange, contact_leaves_a_line_of_ties_to_them) {
-  const Modelled of(four_cubes({contact(0.1)}));
+  const Modelled of(towers(2, 2));
   int n_of_contact = 0;
   for (const Point& point : of.model.exchange.points) n_of_contact += point.law != nullptr;
   EXPECT_EQ(n_of_contact, 6);
 }
 
 TEST(Exchange, refuses_a_law_between_sides_that_are_tied) {
-  const std::string message = complaint(four_cubes({bonded(), contact(0.1)}));
-  EXPECT_NE(message.find("interface 'cd contact': its two sides are tied to each other"), std::string::npos) << message;
+  const std::string message = complaint(towers(3, 1));
+  EXPECT_NE(message.find("interface 'l1r1': its two sides are tied to each other"), std::string::npos) << message;
 }
 
 // Pieces of one shape and material have one factor between them.
