@@ -93,9 +93,10 @@ std::byte* Chunks::room(size_t n) {
 }
 
 void Chunks::clear() {
+  // What comes next is seldom of the very same size, and memory that is not reached costs nothing.
   if (chunks_.size() > 1) {
     chunks_.clear();
-    capacity_ = taken_;
+    capacity_ = taken_ + taken_ / 8;
     chunks_.emplace_back(capacity_);
   }
   used_ = taken_ = 0;

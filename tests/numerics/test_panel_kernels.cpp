@@ -188,6 +188,23 @@ TEST_P(Kernels, multiply_as_plain_loops_do) {
 INSTANTIATE_TEST_SUITE_P(Available, Kernels, ::testing::ValuesIn(available_panel_kernels()),
                          [](const auto& kernels) { return kernels.param; });
 
+// A factor of other numbers has a few tiles more or fewer: it is written where the one before was.
+TEST(Chunks, stay_where_they_are_once_a_second_filling_of_about_the_same_size_has_begun) {
+  constexpr size_t piece = 100000;
+  Chunks chunks;
+  const auto fill = [&](int n_pieces) {
+    const std::byte* const first = chunks.room(piece);
+    for (int i = 0; i < n_pieces; ++i, chunks.take(piece)) chunks.room(piece)[piece - 1] = std::byte{1};
+    const std::byte* const last = chunks.room(piece) - piece;
+    chunks.clear();
+    return std::pair(first, last);
+  };
+  fill(40);
+  const auto [first, last] = fill(41);
+  EXPECT_EQ(last, first + 40 * piece);
+  EXPECT_EQ(fill(42), std::pair(first, first + 41 * piece));
+}
+
 TEST(KernelChoice, names_what_this_processor_has) {
   const std::vector<std::string> names = available_panel_kernels();
   EXPECT_EQ(names.back(), "generic");
