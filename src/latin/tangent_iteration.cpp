@@ -110,9 +110,10 @@ void TangentIteration::factorise() {
   n_since_ = n_spent_ = 0;
 }
 
-// From the fields at hand to those that the tangents lead to. False: they were not found.
-bool TangentIteration::solve(Vec& velocity, Vec& force) {
-  const bool is_found = system_.solve(velocity, force);
+// From the fields at hand to those that the tangents lead to. False: they were not found. Far from the solution the
+// next tangents are others anyway, so that a rough answer is worth as much.
+bool TangentIteration::solve(Vec& velocity, Vec& force, double eta) {
+  const bool is_found = system_.solve(velocity, force, eta > 1e-4 ? 1e-2 : 1e-3);
   if (system_.has_others()) n_spent_ += system_.n_products();
   if (is_found || !system_.has_others()) return is_found;
   most_since_ = n_since_ / 2;
@@ -129,7 +130,7 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
   // W_hat and F_hat, from the image.
   Vec to_velocity = velocity + (image_ - q).cwiseQuotient(2.0 * k_);
   Vec force = image_ - k_.cwiseProduct(to_velocity);
-  if (!solve(to_velocity, force)) return steps_.cannot_follow();
+  if (!solve(to_velocity, force, outcome.eta)) return steps_.cannot_follow();
   const Vec to_q = force + k_.cwiseProduct(to_velocity);
   const auto that_far = [&](double share) {
     return distance(velocity + share * (to_velocity - velocity), q + share * (to_q - q), steps_.limits());

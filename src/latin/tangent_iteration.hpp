@@ -41,7 +41,7 @@ class TangentIteration {
   void choose_tie(const Outcome& outcome);
   int take_tangents();
   void factorise();
-  bool solve(Vec& velocity, Vec& force);
+  bool solve(Vec& velocity, Vec& force, double eta);
   void take_usual_factor();
 
   LocalStage* local_;

@@ -121,8 +121,7 @@ int AssembledSystem::most_products() const {
 }
 
 // z = (M - M_A + N) (V - W_hat). to_image: V - W_hat as it is without (manual, eq. U7, U8).
-std::optional<Vec> AssembledSystem::what_others_add(const Vec& to_image) {
-  constexpr double precision = 1e-3;
+std::optional<Vec> AssembledSystem::what_others_add(const Vec& to_image, double precision) {
   const int most = has_others_ ? most_products() : 30;
   const std::vector<char> reach = reach_of_others();
   const GmresSystem system = {[&](const Vec& z) {

@@ -247,7 +247,7 @@ Vec AssembledSystem::balanced(const Vec& right_hand_side, const std::vector<char
   return x;
 }
 
-bool AssembledSystem::solve(Vec& velocity, Vec& force) {
+bool AssembledSystem::solve(Vec& velocity, Vec& force, double precision) {
   if (!factor_) return true;
   Vec held = Vec::Zero(model_->n_q()), loads(first_.back());
   for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -257,7 +257,8 @@ bool AssembledSystem::solve(Vec& velocity, Vec& force) {
   n_products_ = 0;
   Vec at_rest = force + tangent_times(velocity - held);
   if (is_following_ || has_others_) {
-    const std::optional<Vec> more = what_others_add(at_rows(balanced(loads + from_rows(at_rest))) + held - velocity);
+    const Vec to_image = at_rows(balanced(loads + from_rows(at_rest))) + held - velocity;
+    const std::optional<Vec> more = what_others_add(to_image, precision);
     if (!more) return false;
     at_rest -= *more;
   }

@@ -38,8 +38,8 @@ class AssembledSystem {
   void set_own();
   // From V and F: those in balance with the loads of the increment where F changes with V as the tangents say; lengths
   // n_q. False: they were not found beside the factor, which knows nothing of how friction follows, nor of tangents
-  // since.
-  bool solve(Vec& velocity, Vec& force);
+  // since. precision: to which part of it what these add is found.
+  bool solve(Vec& velocity, Vec& force, double precision = 1e-3);
   bool has_others() const { return has_others_; }
   // Products with the factor that the last solve took beside it, and how many are worth a factor.
   int n_products() const { return n_products_; }
@@ -74,7 +74,7 @@ class AssembledSystem {
   Vec following_times(const Vec& velocity) const;
   Vec others_times(const Vec& velocity) const;  // what the tangents at hand add to the factor's, with what follows
   Vec scaled(Vec force) const;
-  std::optional<Vec> what_others_add(const Vec& to_image);
+  std::optional<Vec> what_others_add(const Vec& to_image, double precision);
   std::vector<char> reach_of_others() const;
   // reach: of the right-hand side, and where the answer is asked for; null: everywhere.
   Vec balanced(const Vec& right_hand_side, const std::vector<char>* reach = nullptr) const;

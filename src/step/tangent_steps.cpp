@@ -23,6 +23,7 @@ void TangentSteps::begin() {
   limits_.clear();
   follows_ = false;
   n_in_vain_ = n_to_wait_ = 0;
+  rises_below_ = std::numeric_limits<double>::infinity();
 }
 
 // Friction is limited by the normal forces of an earlier iteration until what that leaves is nearly solved: each such
@@ -47,8 +48,12 @@ void TangentSteps::cannot_follow() {
   n_to_wait_ = std::min(++n_in_vain_, most_problems);
 }
 
+// A few points that open or slide may make the distance rise, and the step after it finds where they belong: steps cut
+// for them take many. So where friction follows the distance may rise, again once it is half of what it rose from.
 double TangentSteps::end_step(double before, const std::function<double(double)>& distance, int n_changed, double eta) {
   if (n_++ == 0) return 1.0;
+  constexpr double most_rise = 10.0;
+  const bool may_rise = follows_ && before < rises_below_;
   double best = 1.0, least = std::numeric_limits<double>::infinity();
   for (double share = 1.0; share > 0.01; share *= 0.5) {
     const double now = distance(share);
@@ -56,12 +61,14 @@ double TangentSteps::end_step(double before, const std::function<double(double)>
       least = now;
       best = share;
     }
-    if (now < (1.0 - 0.2 * share) * before) break;
+    if (now < (1.0 - 0.2 * share) * before || (may_rise && now < most_rise * before)) break;
   }
-  if (follows_ && least > 0.9 * before)
-    cannot_follow();
-  else if (follows_)
+  if (follows_ && least <= 0.9 * before)
     n_in_vain_ = 0;
+  else if (may_rise && best == 1.0)
+    rises_below_ = 0.5 * before;
+  else if (follows_)
+    cannot_follow();
   choose_softest(best, n_changed, eta);
   return best;
 }

@@ -27,7 +27,8 @@ class TangentSteps {
   const std::vector<double>& limits() const { return limits_; }
   // Least stiffness of what is open or slides, for TangentBounds.
   double softest() const { return softest_; }
-  // How far to go: the first half, quarter, ... that lessens the distance; else the best of them. distance: that far.
+  // How far to go: the first half, quarter, ... that lessens the distance; else the best of them; all the way where the
+  // distance may rise. distance: that far.
   double end_step(double before, const std::function<double(double share)>& distance, int n_changed, double eta);
 
  private:
@@ -36,7 +37,7 @@ class TangentSteps {
   int n_ = 0;
   bool follows_ = false;
   int n_in_vain_ = 0, n_to_wait_ = 0;  // times in a row that friction has followed; problems until it does again
-  double softest_ = 0.0;
+  double softest_ = 0.0, rises_below_ = 0.0;
   std::vector<double> limits_;  // empty: none yet
 };
 
