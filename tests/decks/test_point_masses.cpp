@@ -86,7 +86,7 @@ TEST(PointMasses, swing_on_a_clamped_beam_as_beam_theory_says) {
         10 * (own * std::pow(length, 3) / 8 + mass * std::pow(length, 3) / 3 + mass * offset * length * length / 2) /
         stiffness;
     EXPECT_NEAR(run.column("tip", "z").at(1), -sag, 5e-4 * sag);
-    EXPECT_NEAR(run.column("base", "z").at(1), 10 * (own + mass), 1e-6 * 10 * (own + mass));
+    EXPECT_NEAR(run.column("base", "z").front(), 10 * (own + mass), 1e-6 * 10 * (own + mass));
   }
 }
 
