@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "base/error.hpp"

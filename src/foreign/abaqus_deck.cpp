@@ -1,5 +1,6 @@
 #include "foreign/abaqus_deck.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/error.hpp"
 #include "base/names.hpp"
 #include "foreign/cards.hpp"
 #include "foreign/lua_text.hpp"

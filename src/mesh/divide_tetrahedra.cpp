@@ -1,5 +1,6 @@
 #include "mesh/divide_tetrahedra.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
