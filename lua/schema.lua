@@ -408,6 +408,28 @@ words[3][2] = {
   },
 }
 
+words.mass = {
+  name = "mass", doc = "Masses in the place of equipment: listed among `substructures`, and joined to the faces that they are on.",
+  {
+    "point", makes = "substructure", is_mass = true,
+    doc = "A mass with its inertia on a face, as a box or a dummy on its feet: `substructure.rigid` and the bond to each face in one. A problem that lists it has its bonds; `box.joints` is the list of them, for outputs. "
+      .. "Several faces are joined each by itself.",
+    arguments = {
+      name_of "part",
+      on({ "face" }, "faces of parts that carry it"),
+      { "mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, required = true, doc = "of the body" },
+      { "inertia", in_frame = "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, default_doc = "that of a ball of a thousandth of the size of its faces",
+        doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
+      { "at", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
+      { "motion", type = "choice", choices = { "mean", "rigid" }, default = "mean",
+        doc = "what it follows: the mean motion of a face, translation and rotation, in which the face deforms freely (RBE3); or all of the face, which then stays rigid (RBE2)" },
+      { "weights", type = "choice", choices = { "area", "nodes" }, default = "area", doc = "what counts in a mean motion: the area behind each node, or each node alike" },
+      frame "of `at` and along whose axes `inertia` is",
+      part_arguments[6],
+    },
+  },
+}
+
 words.frame = {
   name = "frame",
   doc = "A local coordinate system: an origin and three orthogonal axes. Places, directions and components of anything that takes it as `frame` are in its axes.",
@@ -1273,6 +1295,19 @@ local methods = {
     doc = "Text: what of the file is read as something else, and each keyword that is not used, with its lines.",
   },
   {
+    kind = "mesh", "cut", write = "mesh:cut{ normal = { 0, 0, 1 }, at = 18*mm }", makes = "mesh", is_list = true,
+    doc = "The list of the two halves of a mesh, behind a plane and beyond it, each with the new face `cut`: a bolt in one solid is two substructures then, and the interface between their faces is tightened. "
+      .. "Tetrahedra are divided, so that both faces lie in the plane and match; cells of other kinds stay whole, and the cut is the plane of their facets that is nearest.",
+    argument = { "surface", type = "text", doc = "of a file of another program instead: a surface inside the part, as `*PRE-TENSION SECTION` has it; the first half has the cells that the surface names" },
+    arguments = {
+      { "normal", type = "vector", with = "at", doc = "of the plane, in the coordinates of the mesh; its length does not matter" },
+      { "at", type = "number", unit = "m", range = { -1000, 1000 }, with = "normal", doc = "where along the normal" },
+      { "surface", type = "text", doc = "instead of them" },
+      { "face", type = "name", default = "cut", doc = "name of the new face" },
+    },
+    one_of = { "normal", "surface" },
+  },
+  {
     kind = "substructure", "region", write = "part:region \"set\"", makes = "region",
     doc = "The nodes of a named set of the file from which the part's mesh comes.",
     argument = { "set", type = "text", doc = "the set's name" },
@@ -1365,7 +1400,7 @@ local reading = {
   { "ensemble.converged", "whether all members converged: statistics leave out those that did not" },
 }
 
-for _, name in ipairs { "frame", "pattern", "bolt", "field" } do words[#words + 1], words[name] = words[name], nil end
+for _, name in ipairs { "mass", "frame", "pattern", "bolt", "field" } do words[#words + 1], words[name] = words[name], nil end
 
 -- Fields that a deck can read of bolts, frames and lists.
 local fields = {

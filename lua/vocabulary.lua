@@ -13,6 +13,7 @@ local bolts = native.module "bolts"
 local frames = native.module "frames"
 local spectra = native.module "spectra"
 local ensembles = native.module "ensembles"
+local masses = native.module "masses"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -43,7 +44,14 @@ local function constructor(entry)
       if entry.makes == "frame" then made = frames.make(entry, arguments, line) else made = spectra.declare(entry, arguments, line) end
       return made
     end
-    if entry.path == "problem" then spectra.leave_out(arguments, of_motion, line) end
+    if entry.is_mass then
+      local made = masses.declare(entry, arguments, line)
+      return made
+    end
+    if entry.path == "problem" then
+      spectra.leave_out(arguments, of_motion, line)
+      masses.join(arguments)
+    end
     local other = entry.path == "problem" and command_line.solver(line)
     if other then  -- the deck's own is kept as used
       arguments.solver_of_deck, arguments.solver = arguments.solver, other
@@ -73,6 +81,9 @@ local function expanded(entry)
     local given = check.call(entry, line, ...)
     local is_bolt = bolts.is_bolt(given.of)
     local of = is_bolt and bolts.given(given.of) or native.arguments(given.of)
+    if not of.place then
+      fail(line, ("%s: '%s' has no place: it is on the faces of other parts"):format(entry.path, of.name), "declare one for each place")
+    end
     local turn
     if given.axis then
       turn = placement.rotation(given.axis, given.angle or 2 * math.pi / given.n, given.about)

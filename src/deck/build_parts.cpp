@@ -318,6 +318,7 @@ const Builders& part_builders() {
         {"material.laminate", build_laminate},
         {"substructure", build_substructure},
         {"substructure.rigid", build_rigid},
+        {"mass.point", build_rigid},
         {"substructure.superelement", build_superelement},
         {"param", build_parameters},
     };

@@ -1,7 +1,8 @@
-// substructure.superelement and .rigid, and what they have in common with other substructures.
+// substructure.superelement, .rigid and mass.point, and what they have in common with other substructures.
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -130,13 +131,24 @@ Mat3 inertia_in(const LuaArguments& a) {
   return inertia;
 }
 
-// Faces that were picked by geometry are called by what they were picked by, and by their place in `on`: "face 2".
-MeshPtr with_short_names(const MeshPtr& body, const std::vector<Face>& faces) {
+// Without moments of its own: a millionth of what its mass has at the nodes around.
+Mat3 inertia_of_ball(double mass, const RigidBody& body) {
+  constexpr double radius = 1e-3;  // of their distance
+  double size = 0.0;
+  for (const RigidBody::Side& side : body.sides) {
+    const Vec3 middle = side.places.rowwise().mean();
+    size = std::max(size, (side.places.colwise() - middle).colwise().norm().maxCoeff());
+  }
+  return mass * std::pow(radius * size, 2) * Mat3::Identity();
+}
+
+// Faces that were picked by geometry, or all, are called by their place in `on`, too: "face 2".
+MeshPtr with_short_names(const MeshPtr& body, const std::vector<Face>& faces, bool all) {
   auto mesh = std::make_shared<Mesh>(*body);
   for (size_t i = 0; i < faces.size(); ++i) {
     const auto own = mesh->faces.find(faces[i].group), labelled = mesh->faces.find(faces[i].label());
     const auto it = own != mesh->faces.end() ? own : labelled;
-    if (!faces[i].picked || it == mesh->faces.end()) continue;
+    if ((!faces[i].picked && !all) || it == mesh->faces.end()) continue;
     const std::vector<Facet> facets = it->second;
     mesh->faces.emplace(fmt::format("face {}", i + 1), facets);
   }
@@ -160,7 +172,7 @@ RigidBody::Side side_on(const Face& face, const std::string& name) {
 Content build_rigid(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto part = new_named<Substructure>(d);
-  RigidBody body{a.number("mass"), inertia_in(a), a.vector("at"), {}};
+  RigidBody body{a.number("mass"), Mat3::Zero(), a.vector("at"), {}};
   std::vector<Face> faces;
   for (const FaceOrRegion& place : a.places("on")) faces.push_back(std::get<Face>(place));
   double young = 0.0;
@@ -171,7 +183,8 @@ Content build_rigid(const Declaration& d) {
     body.sides.push_back(side_on(face, is_alone ? face.group : face.label()));
     young = std::max(young, face.part->material.young());
   }
-  part->mesh = with_short_names(rigid_body(body), faces);
+  body.inertia = a.has("inertia") ? inertia_in(a) : inertia_of_ball(body.mass, body);
+  part->mesh = with_short_names(rigid_body(body), faces, d.path == "mass.point");
   part->material = material_like(young, "rigid");
   part->velocity = a.vector("velocity");
   return SubstructurePtr(part);

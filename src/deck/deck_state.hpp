@@ -33,6 +33,8 @@ struct DeckState : LuaState {
   std::set<std::string> parameters_read, signals_told;
   std::map<std::shared_ptr<const NamedParts>, std::set<std::string>> parts_taken;  // by the deck, names
   std::vector<std::shared_ptr<const ForeignMeshes>> model_files;
+  std::map<MeshPtr, std::map<std::string, std::vector<int>>>
+      regions_of_halves;                                         // of meshes of model files that are cut
   std::vector<std::weak_ptr<const Interface>> without_friction;  // contacts for which the deck gives none
   std::vector<std::weak_ptr<Step>> without_dt;                   // dynamic: they get that of their problem
   std::set<std::string> steps_told;

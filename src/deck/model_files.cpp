@@ -120,15 +120,20 @@ Object file_material(DeckState& state, const Object& self, lua_State* L, const O
   }
 }
 
+const std::map<std::string, std::vector<int>>* regions_of(const DeckState& state, const MeshPtr& mesh) {
+  if (const auto half = state.regions_of_halves.find(mesh); half != state.regions_of_halves.end()) return &half->second;
+  for (const auto& file : state.model_files)
+    if (const auto* regions = file->regions(mesh)) return regions;
+  return nullptr;
+}
+
 Region named_region(const DeckState& state, lua_State* L, const Origin& origin) {
   const SubstructurePtr& part = the_object_at(L, 2).as<SubstructurePtr>();
   const std::string name = lua_tostring(L, 3);
   lua_getiuservalue(L, 2, 1);
   lua_getfield(L, -1, "mesh");
   const Object* mesh = object_at(L, -1);
-  const std::map<std::string, std::vector<int>>* regions = nullptr;
-  for (const auto& file : state.model_files)
-    if (!regions && mesh) regions = file->regions(mesh->as<MeshPtr>());
+  const std::map<std::string, std::vector<int>>* regions = mesh ? regions_of(state, mesh->as<MeshPtr>()) : nullptr;
   if (!regions)
     throw InputError(origin,
                      fmt::format("substructure '{}' has no named regions: its mesh is of no file that has sets\n"

@@ -7,6 +7,7 @@
 #include "base/names.hpp"
 #include "base/warnings.hpp"
 #include "deck/build_model.hpp"
+#include "deck/cut_meshes.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/embedded_lua.hpp"
 #include "deck/ensembles.hpp"
@@ -200,6 +201,7 @@ int call_method(LuaState& lua, lua_State* L) {
   if (method == "problem:run") return run_from_deck(state, L);
   if (self.kind == "history") return move_history(L, method);
   if (self.kind == "sample") return quantile_of_sample(L);
+  if (method == "mesh:cut") return push_halves(state, L, origin);
   if (method == "mesh file:volume") {
     const std::string name = lua_tostring(L, 3);
     push_object(

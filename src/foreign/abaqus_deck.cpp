@@ -1,5 +1,6 @@
 #include "foreign/abaqus_deck.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "base/error.hpp"
 #include "foreign/abaqus_steps.hpp"
 #include "foreign/acting_loads.hpp"
+#include "mesh/face_nodes.hpp"
 
 namespace dygita {
 
@@ -27,11 +29,13 @@ class AbaqusDeck : public ImportedDeck {
   }
 
   std::string text() {
+    cut_parts(analysis_.cuts);
     write_parts(needs_density());
     write_welds();
     for (const AbaqusJoint& joint : analysis_.joints) write_joint(joint);
     for (const FileBody& body : analysis_.bodies) put_body(body);
     for (const AbaqusEquation& equation : analysis_.equations) write_equation(equation);
+    for (const ObliqueHold& hold : analysis_.obliques) write_oblique(hold);
     for (const FileSpring& spring : analysis_.springs)
       if (const std::string name = put_spring(spring, equations_.size() + 1); !name.empty()) equations_.push_back(name);
     std::vector<std::string> supports, loads;
@@ -135,6 +139,36 @@ class AbaqusDeck : public ImportedDeck {
     equations_.push_back(name);
   }
 
+  // Nodes that are held along an oblique direction: the nodes of a plane across it, or each by an equation.
+  void write_oblique(const ObliqueHold& hold) {
+    constexpr size_t most = 100;
+    const int part = part_with(hold.place);
+    if (part >= 0 && has_plane(parts_[static_cast<size_t>(part)], hold)) {
+      const std::string name = names_.of("plane", hold.place);
+      put("local {} = support.symmetry{{ name = {}, on = {}:face {} }}  -- {}", name, lua_quoted(name),
+          part_names_[static_cast<size_t>(part)], lua_quoted(hold.place), hold.where);
+      equations_.push_back(name);
+      return;
+    }
+    if (hold.nodes.size() > most)
+      return leave(
+          fmt::format("{}: *BOUNDARY: {} nodes are held along axes of *TRANSFORM that are none of the file's, "
+                      "and are on no plane across them",
+                      hold.where, hold.nodes.size()));
+    for (const std::string& node : hold.nodes) write_equation({{{node, 1.0, hold.along}}, {}, hold.where});
+  }
+
+  // Has the face of these nodes all of them, and the direction as its normal?
+  static bool has_plane(const ForeignPart& part, const ObliqueHold& hold) {
+    constexpr double same = 1e-4;
+    const auto face = part.mesh->faces.find(hold.place);
+    if (face == part.mesh->faces.end() || nodes_of(face->second).size() != hold.nodes.size()) return false;
+    return std::all_of(face->second.begin(), face->second.end(), [&](const Facet& facet) {
+      const Vec3 normal = facet_area_vector(part.mesh->nodes, facet).normalized();
+      return normal.cross(hold.along).norm() < same;
+    });
+  }
+
   std::vector<std::string> with_equations(std::vector<std::string> supports) const {
     supports.insert(supports.end(), equations_.begin(), equations_.end());
     return supports;
@@ -175,6 +209,12 @@ class AbaqusDeck : public ImportedDeck {
   // What a step says anew of a place takes the place of what steps before have said of it.
   void add_acting(std::vector<FileAction> actions, std::vector<std::string>& supports,
                   std::vector<std::string>& loads) {
+    const auto is_tightened = [&](const ActingLoad& one, const FileAction& by) {
+      return one.action.tightens() && by.tightens() && one.action.place == by.place;
+    };
+    for (const FileAction& action : actions)  // frozen, or by another kind of load
+      if (action.tightens()) drop([&](const ActingLoad& one) { return is_tightened(one, action); }, loads);
+    std::erase_if(actions, [](const FileAction& action) { return action.tightens() && action.stays; });
     for (FileAction& action : actions)
       if (action.kind == Kind::held && !acting_.met_by(action, points_of(action), Kind::moved).empty()) {
         if (action.stays) leave(fmt::format("{}: FIXED of nodes that are moved", action.where));

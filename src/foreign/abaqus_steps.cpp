@@ -11,6 +11,8 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "foreign/abaqus_axes.hpp"
+#include "foreign/abaqus_pretensions.hpp"
 #include "foreign/abaqus_references.hpp"
 #include "foreign/loaded_facets.hpp"
 
@@ -87,6 +89,7 @@ const std::map<std::string, std::set<std::string>> options_of = {
     {"EQUATION", {}},
     {"MPC", {}},
     {"SPRING", {"ELSET"}},
+    {"PRE-TENSIONSECTION", {"SURFACE", "NODE", "ELEMENT"}},
     {"CLEARANCE", {"MASTER", "SLAVE", "VALUE"}},
     {"DASHPOT", {"ELSET"}},
     {"MASS", {"ELSET"}},
@@ -114,7 +117,7 @@ constexpr double rough = 1000;  // coefficient of friction: the largest of a dec
 class AnalysisReader {
  public:
   explicit AnalysisReader(AbaqusModel& model)
-      : model_(model), file_(model.file()), constraints_(model), references_(model) {}
+      : model_(model), file_(model.file()), constraints_(model), references_(model), pretensions_(model) {}
 
   AbaqusAnalysis read() {
     for (const PlacedCard& placed : model_.cards()) {
@@ -129,9 +132,11 @@ class AnalysisReader {
         analysis_.untranslated.push_back(
             fmt::format("{}: modes of all nodal diameters: a deck has those of nodal diameter 0", step.where));
     set_clearances();
+    set_obliques();
     constraints_.finish(analysis_.springs, analysis_.untranslated);
     analysis_.equations = std::move(constraints_.equations);
     references_.finish(analysis_);
+    pretensions_.finish(analysis_.cuts, analysis_.untranslated);
     return std::move(analysis_);
   }
 
@@ -160,11 +165,7 @@ class AnalysisReader {
       return constraints_.read(placed, turned_);
     }
     if (word == "CLEARANCE") return note_clearance(card);
-    if (word == "PRE-TENSIONSECTION")
-      return leave(
-          card,
-          "a deck cuts no part: make the cells on either side of the surface two *SOLID SECTIONs; the weld between "
-          "the two parts then takes load.preload with the force of the *CLOAD");
+    if (word == "PRE-TENSIONSECTION") return;  // read before all others
     if (word == "MASS") return references_.read_mass(placed);
     if (!silent.contains(word) && !AbaqusReferences::has_read(word)) leave(card, "a deck has no word for it");
   }
@@ -210,28 +211,7 @@ class AnalysisReader {
       for (double& x : point) x = fields.real("a coordinate");
     const DataLine line{set, card.file, card.line};
     for (const int node : model_.nodes_of(*placed.scope, LineFields(file_, line), set))
-      turned_[node] = axes_of(card, type == "C", points, model_.model().nodes[static_cast<size_t>(node)]);
-  }
-
-  // Axes of a node. R: the first through a point, in a plane with another; C: from a line through two outwards, around
-  // it, along it.
-  Mat3 axes_of(const FileCard& card, bool is_cylinder, const std::array<Vec3, 2>& points, const Vec3& x) const {
-    constexpr double nothing = 1e-9;
-    Mat3 axes;
-    if (is_cylinder) {
-      axes.col(2) = (points[1] - points[0]).normalized();
-      axes.col(0) = x - points[0] - axes.col(2).dot(x - points[0]) * axes.col(2);
-      if (!(axes.col(0).norm() > nothing * (x - points[0]).norm())) file_.fail(card, "a node on the axis has no axes");
-    } else {
-      axes.col(0) = points[0].normalized();
-      axes.col(2) = points[0].cross(points[1]);
-      if (!(axes.col(2).norm() > nothing * points[0].norm() * points[1].norm()))
-        file_.fail(card, "its two points are on one line");
-    }
-    axes.col(0).normalize();
-    axes.col(2).normalize();
-    axes.col(1) = axes.col(2).cross(axes.col(0));
-    return axes;
+      turned_[node] = axes_of_node(file_, card, type == "C", points, model_.model().nodes[static_cast<size_t>(node)]);
   }
 
   // The OP of a card, which holds for its kind in the step.
@@ -267,40 +247,42 @@ class AnalysisReader {
     if (std::none_of(nodes.begin(), nodes.end(), is_turned) || (is_held && is_whole && by.isZero(0.0))) return false;
     for (const int node : nodes) {
       const Mat3 axes = is_turned(node) ? turned_.at(node) : Mat3(Mat3::Identity());
-      const auto turned = is_held ? held_in(axes, says, placed, line) : forced_in(axes, by);
-      sayings.try_emplace({"", turned}, Listed{line, "", {}}).first->second.nodes.push_back(node);
+      const HeldInAxes turned =
+          is_held ? held_in(axes, says, file_.where(line.file, line.line)) : HeldInAxes{forced_in(axes, by), {}};
+      for (const Vec3& along : turned.oblique) note_oblique(placed, line, along, node);
+      if (turned.says != AxesSaying{})
+        sayings.try_emplace({"", turned.says}, Listed{line, "", {}}).first->second.nodes.push_back(node);
     }
     return true;
   }
 
-  static std::array<double, 6> forced_in(const Mat3& axes, const Vec3& by) {
-    constexpr double rounding = 1e-12;
-    const Vec3 force = axes * by;
-    std::array<double, 6> says{};
-    for (int d = 0; d < 3; ++d)
-      if (std::abs(force[d]) > rounding * force.norm())
-        says[static_cast<size_t>(d)] = 1, says[static_cast<size_t>(d) + 3] = force[d];
-    return says;
+  // Nodes that are held along one direction that is no axis of the file.
+  void note_oblique(const PlacedCard& placed, const DataLine& line, const Vec3& along, int node) {
+    if (!analysis_.steps.empty())
+      LineFields(file_, line)
+          .fail("*BOUNDARY: a node is held in a step along axes of *TRANSFORM that are none of the file's");
+    constexpr double same = 1e-5;  // as far as the digits of a file go
+    const auto fits = [&](const Oblique& one) { return one.card == placed.card && (one.along - along).norm() < same; };
+    const auto known = std::find_if(obliques_.begin(), obliques_.end(), fits);
+    Oblique& oblique =
+        known == obliques_.end() ? obliques_.emplace_back(Oblique{placed.card, line, along, {}}) : *known;
+    oblique.nodes.insert(node);
   }
 
-  // What is held along some axes, where these, or what they leave free, are axes of the file.
-  std::array<double, 6> held_in(const Mat3& axes, const std::array<double, 6>& own, const PlacedCard& placed,
-                                const DataLine& line) const {
-    constexpr double close = 1e-9;
-    Mat3 held = Mat3::Zero();
-    for (int d = 0; d < 3; ++d)
-      if (own[static_cast<size_t>(d)] != 0) held += axes.col(d) * axes.col(d).transpose();
-    const Vec3 by = axes * Vec3(own[3], own[4], own[5]);
-    std::array<double, 6> says{};
-    for (int d = 0; d < 3; ++d) {
-      const auto i = static_cast<size_t>(d);
-      says[i] = held(d, d) > 0.5 ? 1 : 0;
-      says[i + 3] = says[i] != 0 && std::abs(by[d]) > close * by.norm() ? by[d] : 0.0;
-      if ((held.col(d) - says[i] * Vec3::Unit(d)).norm() > close)
-        throw InputError(fmt::format("{}: {}: a node is held along axes of *TRANSFORM that are none of the file's",
-                                     file_.where(line.file, line.line), placed.card->written));
+  void set_obliques() {
+    for (const Oblique& oblique : obliques_) {
+      const std::string n = std::to_string(analysis_.obliques.size() + 1);
+      const auto set = [&](const std::string& called, const std::vector<int>& nodes) {
+        return place_of(model_.model(), fmt::format("oblique {} {}", n, called), oblique.line, nodes);
+      };
+      ObliqueHold hold{set("of", {oblique.nodes.begin(), oblique.nodes.end()}),
+                       {},
+                       oblique.along,
+                       file_.where(oblique.line.file, oblique.line.line)};
+      for (const int node : oblique.nodes)
+        hold.nodes.push_back(set(fmt::format("by {}", hold.nodes.size() + 1), {node}));
+      analysis_.obliques.push_back(std::move(hold));
     }
-    return says;
   }
 
   std::string name_of_set(const PlacedCard& placed, const std::string& set) {
@@ -397,6 +379,11 @@ class AnalysisReader {
   bool is_of_reference(const PlacedCard& placed, const DataLine& line, bool is_held, std::string_view what,
                        std::pair<long, long> directions, double by) {
     const std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), what);
+    std::optional<FileAction> tightened;
+    if (pretensions_.read(placed, line, nodes, directions, by, tightened)) {
+      if (tightened) actions().push_back(*tightened);
+      return true;
+    }
     const bool is_turned = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return turned_.contains(node); });
     if (!references_.read({placed, line, static_cast<int>(analysis_.steps.size()) - 1}, is_held, nodes, directions, by))
       return false;
@@ -574,6 +561,12 @@ class AnalysisReader {
     }
   }
 
+  struct Oblique {
+    const FileCard* card;
+    DataLine line;
+    Vec3 along;
+    std::set<int> nodes;
+  };
   struct Clearance {
     const FileCard* card;
     double by;
@@ -584,10 +577,12 @@ class AnalysisReader {
   const CardFile& file_;
   AbaqusAnalysis analysis_;
   std::vector<Clearance> clearances_;
+  std::vector<Oblique> obliques_;
   bool is_sector_ = false;      // of a ring
   std::map<int, Mat3> turned_;  // axes of the nodes of *TRANSFORM
   AbaqusConstraints constraints_;
   AbaqusReferences references_;
+  AbaqusPretensions pretensions_;
 };
 
 }  // namespace

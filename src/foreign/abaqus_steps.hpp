@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "foreign/abaqus_axes.hpp"
 #include "foreign/abaqus_constraints.hpp"
 #include "foreign/abaqus_model.hpp"
 #include "foreign/abaqus_ring.hpp"
@@ -41,6 +42,8 @@ struct AbaqusAnalysis {
   std::vector<AbaqusEquation> equations;
   std::vector<FileSpring> springs;
   std::vector<FileBody> bodies;
+  std::vector<ObliqueHold> obliques;
+  std::vector<std::string> cuts;                          // surfaces inside parts that are tightened there
   std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals
   std::vector<std::string> remarks;                       // what is said otherwise
   std::vector<std::string> untranslated;                  // "plate.inp:45: *SPRING: ..."

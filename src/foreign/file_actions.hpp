@@ -9,11 +9,11 @@
 namespace dygita {
 
 struct FileAction {
-  enum class Kind { held, moved, force, resultant, pressure, traction, gravity, spin };
+  enum class Kind { held, moved, force, resultant, pressure, traction, gravity, spin, preload, shortening };
   Kind kind;
   std::string place;  // a set of nodes or a face of the model; empty: everywhere
-  Vec3 value;  // of gravity, a traction, a force on each node or on a face, a motion; [0] of a pressure; the axis of a
-               // spin
+  Vec3 value;  // of gravity, a traction, a force on each node or on a face, a motion; [0] of a pressure and of what
+               // tightens; the axis of a spin
   std::array<bool, 3> along = {};
   std::string amplitude;        // its name; empty: none
   std::string where;            // "plate.inp:45"
@@ -21,10 +21,13 @@ struct FileAction {
   double speed = 0.0;           // rad in the unit of time, of a spin
   Vec3 through = Vec3::Zero();  // the same, a point of its axis
 
-  bool stays = false;  // held where it has come to
+  bool stays = false;  // held, or tightened, where it has come to
   int owner = -1;      // a node whose load it shares
 
-  bool is_on_faces() const { return kind == Kind::pressure || kind == Kind::traction || kind == Kind::resultant; }
+  bool tightens() const { return kind == Kind::preload || kind == Kind::shortening; }
+  bool is_on_faces() const {
+    return kind == Kind::pressure || kind == Kind::traction || kind == Kind::resultant || tightens();
+  }
   bool is_everywhere() const { return kind == Kind::gravity || kind == Kind::spin; }
 };
 

@@ -50,6 +50,7 @@ ForeignMeshes::ForeignMeshes(ForeignModel model, const ForeignOptions& options) 
   std::vector<ForeignPart> parts = parts_of(model);
   for (ForeignPart& part : parts) {
     regions_[part.mesh] = std::move(part.regions);
+    inner_surfaces_[part.mesh] = std::move(part.inner_surfaces);
     parts_.push_back(std::move(part));
   }
   materials_ = std::move(model.materials);
@@ -65,6 +66,11 @@ ForeignMeshes::ForeignMeshes(ForeignModel model, const ForeignOptions& options) 
 const std::map<std::string, std::vector<int>>* ForeignMeshes::regions(const MeshPtr& mesh) const {
   const auto found = regions_.find(mesh);
   return found == regions_.end() ? nullptr : &found->second;
+}
+
+const std::map<std::string, std::vector<InnerFacet>>* ForeignMeshes::inner_surfaces(const MeshPtr& mesh) const {
+  const auto found = inner_surfaces_.find(mesh);
+  return found == inner_surfaces_.end() ? nullptr : &found->second;
 }
 
 FileMaterial ForeignMeshes::material(const std::string& name) const {

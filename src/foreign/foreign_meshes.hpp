@@ -40,11 +40,14 @@ class ForeignMeshes : public NamedParts {
   const std::string& report() const { return report_; }
   // Sets of nodes of a part of this file; null: a mesh of something else.
   const std::map<std::string, std::vector<int>>* regions(const MeshPtr& mesh) const;
+  // Surfaces that lie inside a part, the same way.
+  const std::map<std::string, std::vector<InnerFacet>>* inner_surfaces(const MeshPtr& mesh) const;
 
  private:
   ForeignMeshes(ForeignModel model, const ForeignOptions& options);
 
   std::map<MeshPtr, std::map<std::string, std::vector<int>>> regions_;
+  std::map<MeshPtr, std::map<std::string, std::vector<InnerFacet>>> inner_surfaces_;
   std::vector<ForeignMaterial> materials_;
   std::optional<FileUnits> units_;
   std::string report_, elasticity_, density_;

@@ -131,7 +131,7 @@ class PartMaker {
     std::unordered_map<FacetKey, Facet, FacetKeyHash> boundary;
     const std::vector<Facet> facets = boundary_facets(mesh.blocks);
     for (const Facet& facet : facets) boundary.emplace(facet_key(facet), facet);
-    for (const ForeignFace& surface : model_.surfaces) add_surface(surface, boundary, mesh, part.name);
+    for (const ForeignFace& surface : model_.surfaces) add_surface(surface, boundary, mesh, part);
     for (const ForeignSet& set : model_.node_sets) {
       std::vector<int> own;
       for (const int node : set.nodes)
@@ -143,10 +143,10 @@ class PartMaker {
   }
 
   void add_surface(const ForeignFace& surface, const std::unordered_map<FacetKey, Facet, FacetKeyHash>& boundary,
-                   Mesh& mesh, const std::string& part) {
+                   Mesh& mesh, ForeignPart& part) {
     std::vector<Facet> facets;
+    std::vector<InnerFacet> inside;
     std::unordered_set<FacetKey, FacetKeyHash> known;  // a facet that is listed twice is there once
-    int n_inside = 0;
     for (const ForeignFacet& facet : surface.facets) {
       if (!is_of_part_[static_cast<size_t>(facet.cell)]) continue;
       std::vector<int> corners;
@@ -155,15 +155,28 @@ class PartMaker {
       if (!known.insert(facet_key(corners)).second) continue;
       const auto found = boundary.find(facet_key(corners));
       if (found == boundary.end())
-        ++n_inside;
+        inside.push_back({facet_key(corners), node_behind(facet, corners)});
       else
         facets.push_back(found->second);
     }
-    if (n_inside > 0)
+    if (!inside.empty())
       model_.told.push_back(
-          fmt::format("{}: {} of {} facets of surface '{}' lie inside part '{}', where it has no face", surface.where,
-                      n_inside, n_inside + facets.size(), surface.name, part));
-    if (n_inside == 0 && !facets.empty()) mesh.faces[surface.name] = std::move(facets);
+          fmt::format("{}: {} of {} facets of surface '{}' lie inside part '{}', where it has no face; "
+                      "mesh:cut divides it there",
+                      surface.where, inside.size(), inside.size() + facets.size(), surface.name, part.name));
+    if (inside.empty() && !facets.empty()) mesh.faces[surface.name] = std::move(facets);
+    if (!inside.empty()) part.inner_surfaces[surface.name] = std::move(inside);
+  }
+
+  // A corner of the facet's cell that is none of the facet's.
+  int node_behind(const ForeignFacet& facet, const std::vector<int>& corners) const {
+    const ForeignCell& cell = model_.cells[static_cast<size_t>(facet.cell)];
+    const int* nodes = model_.nodes_of(cell);
+    for (int a = 0; a < cell_shape(cell.type).n_corners; ++a) {
+      const int node = local_[static_cast<size_t>(nodes[a])];
+      if (std::find(corners.begin(), corners.end(), node) == corners.end()) return node;
+    }
+    return -1;
   }
 
   void add_face_of_nodes(const std::string& name, const std::vector<int>& nodes, const std::vector<Facet>& boundary,
@@ -188,6 +201,17 @@ class PartMaker {
 
 std::string ForeignModel::where(const ForeignCell& cell) const {
   return fmt::format("{}:{}", files[static_cast<size_t>(cell.file)], cell.line);
+}
+
+std::map<std::string, std::vector<int>> regions_of_half(const std::map<std::string, std::vector<int>>& regions,
+                                                        const MeshHalf& half) {
+  std::unordered_map<int, int> own;
+  for (size_t i = 0; i < half.nodes.size(); ++i) own.emplace(half.nodes[i], static_cast<int>(i));
+  std::map<std::string, std::vector<int>> of_half;
+  for (const auto& [name, nodes] : regions)
+    for (const int node : nodes)
+      if (const auto found = own.find(node); found != own.end()) of_half[name].push_back(found->second);
+  return of_half;
 }
 
 std::vector<ForeignPart> parts_of(ForeignModel& model) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "intake/step_assembly.hpp"
+#include "mesh/cut_mesh.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dygita {
@@ -85,7 +86,14 @@ struct ForeignPart : StepPart {
   int group = -1;
   std::vector<int> file_nodes;                      // the model's number of each node, increasing
   std::map<std::string, std::vector<int>> regions;  // nodes of the part by the names of sets
+  std::string cut_from, cut_by;                     // of a half: the part and its surface; which half: is_second
+  bool is_second = false;
+  std::map<std::string, std::vector<InnerFacet>> inner_surfaces;  // by which mesh:cut divides it
 };
+
+// Sets of nodes of a part as far as a half of it has them.
+std::map<std::string, std::vector<int>> regions_of_half(const std::map<std::string, std::vector<int>>& regions,
+                                                        const MeshHalf& half);
 
 // The connected cells of each group: one part, or several that are called name[1], name[2], ...
 // Faces: surfaces, and sets that have all nodes of facets on the boundary, unless a surface has their name. Throws

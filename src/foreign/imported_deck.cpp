@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/error.hpp"
 #include "base/names.hpp"
 #include "foreign/cards.hpp"
 #include "foreign/lua_text.hpp"
@@ -22,6 +23,24 @@ FileSpring plain(FileSpring spring) {
   }
   spring.axes = Mat3::Identity();
   return spring;
+}
+
+// The cells of a part on both sides of a surface inside it.
+std::array<ForeignPart, 2> halves_of(const ForeignPart& part, const std::string& surface) {
+  const MeshCut cut = cut_along(*part.mesh, part.inner_surfaces.at(surface), "cut");
+  std::array<ForeignPart, 2> halves = {part, part};
+  for (size_t i = 0; i < 2; ++i) {
+    ForeignPart& half = halves[i];
+    half.name = fmt::format("{} {}", part.name, i + 1);
+    half.mesh = cut.halves[i].mesh;
+    half.cut_from = part.name;
+    half.cut_by = surface;
+    half.is_second = i == 1;
+    half.regions = regions_of_half(part.regions, cut.halves[i]);
+    half.file_nodes.clear();
+    for (const int node : cut.halves[i].nodes) half.file_nodes.push_back(part.file_nodes[static_cast<size_t>(node)]);
+  }
+  return halves;
 }
 
 using Kind = FileAction::Kind;
@@ -91,6 +110,27 @@ std::string ImportedDeck::material_of(const ForeignGroup& group, bool needs_dens
   return name;
 }
 
+void ImportedDeck::cut_parts(const std::vector<std::string>& surfaces) {
+  surfaces_to_tighten_ = surfaces;
+  for (const std::string& surface : surfaces) {
+    std::vector<ForeignPart> parts;
+    for (ForeignPart& part : parts_) {
+      const auto inner = part.inner_surfaces.find(surface);
+      if (inner == part.inner_surfaces.end() || !part.cut_from.empty()) {
+        parts.push_back(std::move(part));
+        continue;
+      }
+      try {
+        for (ForeignPart& half : halves_of(part, surface)) parts.push_back(std::move(half));
+      } catch (const InputError& error) {
+        leave(fmt::format("*PRE-TENSION SECTION of surface '{}' in part '{}': {}", surface, part.name, error.what()));
+        parts.push_back(std::move(part));
+      }
+    }
+    parts_ = std::move(parts);
+  }
+}
+
 void ImportedDeck::write_parts(bool needs_density) {
   std::string skip;
   for (const std::string& type : options_.skip) skip += (skip.empty() ? "" : ", ") + lua_quoted(type);
@@ -99,16 +139,31 @@ void ImportedDeck::write_parts(bool needs_density) {
   for (const ForeignPart& part : parts_) {
     const ForeignGroup& group = model_.groups[static_cast<size_t>(part.group)];
     const std::string material = material_of(group, needs_density), name = names_.of("part", part.name);
-    put("local {} = substructure{{ name = {}, mesh = file:part {}, material = {}{} }}", name,
-        lua_quoted(deck_name_of(part.name)), lua_quoted(part.name), material,
-        is_directed_[material] ? orientation_of(group) : "");
+    put("local {} = substructure{{ name = {}, mesh = {}, material = {}{} }}", name, lua_quoted(deck_name_of(part.name)),
+        mesh_of(part), material, is_directed_[material] ? orientation_of(group) : "");
     part_names_.push_back(name);
   }
+}
+
+std::string ImportedDeck::mesh_of(const ForeignPart& part) {
+  if (part.cut_from.empty()) return "file:part " + lua_quoted(part.name);
+  if (!part.is_second) {
+    halves_ = names_.of("halves", part.cut_from);
+    put("local {} = file:part {} :cut {}", halves_, lua_quoted(part.cut_from), lua_quoted(part.cut_by));
+  }
+  return fmt::format("{}[{}]", halves_, part.is_second ? 2 : 1);
 }
 
 void ImportedDeck::write_welds() {
   for (size_t i = 0; i < parts_.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
+      if (parts_[i].is_second && j + 1 == i) {
+        const std::string name = names_.of("bolt", parts_[i].cut_from);
+        put("local {} = interface.bonded{{ name = {}, between = {{ {}:face \"cut\", {}:face \"cut\" }} }}", name,
+            lua_quoted(name), part_names_[j], part_names_[i]);
+        interfaces_.push_back(tightened_[parts_[i].cut_by] = name);
+        continue;
+      }
       const auto [n_nodes, n_facets] = shared(parts_[j], parts_[i]);
       if (n_nodes == 0) continue;
       if (n_facets == 0) {
@@ -118,8 +173,17 @@ void ImportedDeck::write_welds() {
       const std::string name = names_.of("weld", fmt::format("{}_{}", j + 1, i + 1));
       put("local {} = interface.bonded{{ name = {}, between = {{ {}, {} }} }}  -- they share {} nodes", name,
           lua_quoted(name), part_names_[j], part_names_[i], n_nodes);
+      for (const ForeignPart* part : {&parts_[j], &parts_[i]}) note_tightened(*part, n_facets, name);
       interfaces_.push_back(name);
     }
+}
+
+// Does a surface that is tightened have all facets by which a part is welded to another?
+void ImportedDeck::note_tightened(const ForeignPart& part, int n_facets, const std::string& weld) {
+  for (const std::string& surface : surfaces_to_tighten_)
+    if (const auto face = part.mesh->faces.find(surface);
+        face != part.mesh->faces.end() && static_cast<int>(face->second.size()) == n_facets)
+      tightened_[surface] = weld;
 }
 
 std::pair<size_t, int> ImportedDeck::shared(const ForeignPart& one, const ForeignPart& other) const {
@@ -213,15 +277,12 @@ void ImportedDeck::put_body(const FileBody& body) {
   for (const double value : {j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2)})
     moments.push_back(lua_number(value) + unit + "*length^2");
   for (const double value : {body.at[0], body.at[1], body.at[2]}) at.push_back(lua_number(value) + "*length");
-  const std::string name = names_.of("body", body.place), joint = names_.of("feet", body.place);
-  put("local {} = substructure.rigid{{ name = {}, on = {}, mass = {},\n  inertia = {{ {} }}, at = {{ {} }} }}  -- {}",
+  const std::string name = names_.of("body", body.place);
+  put("local {} = mass.point{{ name = {}, on = {}, mass = {},\n  inertia = {{ {} }}, at = {{ {} }}, motion = {} }}  -- "
+      "{}",
       name, lua_quoted(name), faces[0], lua_number(has_mass ? body.mass : negligible) + unit, comma_list(moments),
-      comma_list(at), body.where);
-  put("local {} = interface.bonded{{ name = {}, between = {{ {}, {}:face {} }}{} }}", joint, lua_quoted(joint),
-      faces[0], name, lua_quoted(body.place),
-      body.is_mean ? fmt::format(", motion = \"mean\", weights = \"{}\"", body.weights) : "");
+      comma_list(at), body.is_mean ? fmt::format("\"mean\", weights = \"{}\"", body.weights) : "\"rigid\"", body.where);
   part_names_.push_back(name);
-  interfaces_.push_back(joint);
 }
 
 int ImportedDeck::part_with(const std::string& place, int preferred) const {
@@ -247,6 +308,10 @@ void ImportedDeck::add(const std::vector<FileAction>& actions, std::vector<std::
                        std::vector<std::string>& loads) {
   for (const FileAction& action : merged(actions, supports)) {
     const bool is_held = action.kind == Kind::held, is_on_faces = action.is_on_faces();
+    if (action.tightens()) {
+      put_tightening(action, loads);
+      continue;
+    }
     const std::string place = is_on_faces ? known_face(action.place) : action.place;
     const auto on = places(place, is_on_faces);
     if (on.empty() && !action.is_everywhere()) {
@@ -262,6 +327,17 @@ void ImportedDeck::add(const std::vector<FileAction>& actions, std::vector<std::
     (is_held ? supports : loads).push_back(name);
     if (is_held) held_[name] = {nodes_in(place), action.along};
   }
+}
+
+void ImportedDeck::put_tightening(const FileAction& action, std::vector<std::string>& loads) {
+  const auto on = tightened_.find(action.place);
+  if (on == tightened_.end())
+    return leave(fmt::format("{}: surface '{}' divides no part, and is no weld of two", action.where, action.place));
+  const bool is_force = action.kind == Kind::preload;
+  const std::string name = names_.of("load", action.place);
+  put("local {} = load.{}{{ on = {}, {} = {} }}  -- {}", name, is_force ? "preload" : "shortening", on->second,
+      is_force ? "force" : "by", value_of(action.value[0], is_force ? "force" : "length", action), action.where);
+  loads.push_back(name);
 }
 
 std::string ImportedDeck::value_of(double value, const char* unit, const FileAction&) {

@@ -42,10 +42,12 @@ class ImportedDeck {
     body_ += fmt::format(format, std::forward<Values>(values)...) + "\n";
   }
   void leave(const std::string& what);
+  // Parts that these surfaces divide become two, joined by a bond that is tightened.
+  void cut_parts(const std::vector<std::string>& surfaces);
   void write_parts(bool needs_density);
   // Parts that share the nodes of facets in the file are one body there.
   void write_welds();
-  // A rigid part behind a face, and the bond between them.
+  // A mass on a face.
   void put_body(const FileBody& body);
   // Its name in the deck; empty where no deck says it.
   std::string put_spring(const FileSpring& spring, size_t number);
@@ -73,6 +75,9 @@ class ImportedDeck {
 
  private:
   std::string material_of(const ForeignGroup& group, bool needs_density);
+  std::string mesh_of(const ForeignPart& part);
+  void note_tightened(const ForeignPart& part, int n_facets, const std::string& weld);
+  void put_tightening(const FileAction& action, std::vector<std::string>& loads);
   std::pair<size_t, int> shared(const ForeignPart& one, const ForeignPart& other) const;
   // A place has one support: directions in which several lines hold it come together, with those held before.
   std::vector<FileAction> merged(const std::vector<FileAction>& actions, std::vector<std::string>& supports);
@@ -86,6 +91,9 @@ class ImportedDeck {
   std::map<std::string, size_t> numbers_of_sets_;  // of nodes, by name
   std::map<std::string, std::string> materials_;
   std::map<std::string, bool> is_directed_;
+  std::vector<std::string> surfaces_to_tighten_;
+  std::string halves_;                            // the list of those written last
+  std::map<std::string, std::string> tightened_;  // interfaces by the surface that has cut a part
   std::map<std::string, std::pair<std::vector<int>, std::array<bool, 3>>> held_;  // by the names of supports
 };
 

@@ -158,15 +158,14 @@ TEST(AbaqusDeck, has_rigid_bodies_and_couplings_by_their_reference_nodes) {
   };
   std::string deck = deck_of(rigid_top + step + "*CLOAD\n901, 3, 8.\n902, 1, 4.\n");
   expect_whole(deck);
-  expect_in(deck, " = substructure.rigid{ name = \"body_rigid_body_");
-  expect_in(deck, ", at = { 5*length, 5*length, 20*length } }");
+  expect_in(deck, " = mass.point{ name = \"body_rigid_body_");
+  expect_in(deck, ", at = { 5*length, 5*length, 20*length }, motion = \"rigid\" }");
   expect_in(deck, "no mass: a microgram takes its place");
-  expect_in(deck, "interface.bonded{ name = \"feet_rigid_body_");
   deck = deck_of(rigid_top + step + "*BOUNDARY\n901, 1, 3\n902, 1, 3\n*CLOAD\n901, 1, 3.\n");
   expect_whole(deck);
   expect_in(deck, "support.fixed{ name = \"support_rigid_body_");
   expect_in(deck, "*CLOAD on a node that is held moves nothing");
-  EXPECT_EQ(deck.find("substructure.rigid"), std::string::npos) << deck;
+  EXPECT_EQ(deck.find("mass.point"), std::string::npos) << deck;
   deck = deck_of(rigid_top + step + "*BOUNDARY\n901, 2\n902, 3\n");
   expect_whole(deck);
   expect_in(deck, "supports = { support_x0, equation_1, equation_2 }");
@@ -208,8 +207,9 @@ TEST(AbaqusDeck, says_what_a_reader_can_do_of_clearances_dashpots_and_tightened_
   expect_in(imported("*CLEARANCE, MASTER=TOP, SLAVE=TOP, VALUE=0.1\n" + step),
             "there is no contact between its surfaces");
   expect_in(imported("*CLEARANCE, MASTER=TOP, SLAVE=TOP, VALUE=-0.1\n" + step), "an overlap");
-  expect_in(imported("*PRE-TENSION SECTION, SURFACE=TOP, NODE=1\n0., 0., 1.\n" + step),
-            "the weld between the two parts then takes load.preload");
+  expect_in(imported("*NODE\n901,0.,0.,0.\n*PRE-TENSION SECTION, SURFACE=TOP, NODE=901\n0., 0., 1.\n*BOUNDARY\nX0, 1, "
+                     "3\n*STEP\n*STATIC\n*CLOAD\n901, 1, 10.\n*END STEP\n"),
+            "surface 'TOP' divides no part, and is no weld of two");
   const std::string ends =
       "*NODE\n901,-5.,0.,0.\n902,-5.,0.,0.\n*ELEMENT, TYPE=DASHPOTA, ELSET=S\n900,901,7\n*BOUNDARY\n901,1,3\n";
   expect_in(imported(ends + "*DASHPOT, ELSET=S\n\n0.5\n" + step), "_damping = 0.5*force*time/length");
@@ -234,8 +234,11 @@ TEST(AbaqusDeck, does_not_guess_what_a_line_means) {
     SCOPED_TRACE(card);
     expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n" + std::string(card) + "*END STEP\n"), "NOT TRANSLATED");
   }
-  expect_in(imported("*TRANSFORM, NSET=X0, TYPE=R\n1,2,0,-2,1,0\n*BOUNDARY\nX0, 1\n*STEP\n*STATIC\n*END STEP\n"),
-            "a node is held along axes of *TRANSFORM that are none of the file's");
+  const std::string turned = "*TRANSFORM, NSET=X0, TYPE=R\n1,2,0,-2,1,0\n";
+  expect_in(imported(turned + "*STEP\n*STATIC\n*BOUNDARY\nX0, 1\n*END STEP\n"),
+            "a node is held in a step along axes of *TRANSFORM that are none of the file's");
+  expect_in(imported(turned + "*BOUNDARY\nX0, 1, 1, 0.5\n*STEP\n*STATIC\n*END STEP\n"),
+            "a node moves along axes of *TRANSFORM that are none of the file's");
   expect_in(imported("*TRANSFORM, NSET=X0, TYPE=R\n1,2,0,2,4,0\n*STEP\n*STATIC\n*END STEP\n"),
             "its two points are on one line");
   expect_in(imported("*TRANSFORM, NSET=X0, TYPE=S\n0,0,0,0,0,1\n*STEP\n*STATIC\n*END STEP\n"), "TYPE = S");
