@@ -64,7 +64,6 @@ void StepData::check_finite(const Outcome& outcome, int increment) const {
                   model.step->name, increment + 1, files.state.time, place_of_divergence()));
 }
 
-// " at substructure 'rod', interface 'thread'": where a velocity is not a number, or else is largest; collective.
 std::string StepData::place_of_divergence() const {
   const Exchange& exchange = model.exchange;
   const Port* worst = nullptr;

@@ -102,8 +102,7 @@ struct StepData {
   Seconds seconds;
   // Of the increment at hand, one a piece: the piece's own, and those of its iterated points (of their first port).
   std::vector<IncrementEnergy> energy, of_points;
-
- private:
+  // " at substructure 'rod', interface 'thread'": where a velocity is not a number, or else is largest; collective.
   std::string place_of_divergence() const;
 };
 

@@ -114,9 +114,10 @@ bool StepBooks::has_flown_off() const {
   const double moved = step_.largest_velocity(), size = step_.settings.assembly_size;
   if (moved <= too_far * size) return false;
   warn(fmt::format(
-      "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: it is "
-      "unconstrained, a limit load is exceeded, or the iteration failed to converge",
-      step_.model.step->name, moved, moved / size));
+      "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly{}: it is "
+      "unconstrained, springs are too soft for the load that they hold, a limit load is exceeded, or the iteration "
+      "failed to converge",
+      step_.model.step->name, moved, moved / size, step_.place_of_divergence()));
   return true;
 }
 

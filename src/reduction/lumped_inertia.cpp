@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/log.hpp"
+#include "base/name_list.hpp"
+#include "base/union_find.hpp"
 #include "fem/assembly.hpp"
 #include "fem/mass.hpp"
+#include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "mesh/jacobian.hpp"
 #include "mesh/shape_functions.hpp"
@@ -23,21 +27,36 @@ constexpr double most = 1.2;     // of the true moment: torsion a tenth too low
 constexpr double slender = 2.0;  // length over width of what twists rather than turns
 constexpr double slow = 0.02;    // of the speed of what turns as a whole
 
-// Integrals of x x^T.
-Mat3 material_moments(const Mesh& mesh, const Vec3& centre) {
-  Mat3 moments = Mat3::Zero();
+// Integrals of (x, 1)(x, 1)^T by mass: of the masses at the nodes, and of the material.
+struct Moments {
+  Eigen::Matrix4d lumped = Eigen::Matrix4d::Zero(), material = lumped;
+
+  void add(const Mesh& mesh, double density, bool is_lumped = true);
+};
+
+void Moments::add(const Mesh& mesh, double density, bool is_lumped) {
+  Eigen::Matrix4d own = Eigen::Matrix4d::Zero();
   for (const CellBlock& block : mesh.blocks) {
     const ShapeFunctions& shape = shape_functions(block.type);
     for (int i = 0; i < block.n_cells(); ++i) {
-      const Points x = cell_nodes(mesh.nodes, block, i).colwise() - centre;
+      const Points x = cell_nodes(mesh.nodes, block, i);
       for (const QuadraturePoint& point : cell_shape(block.type).mass.points) {
-        const Vec3 xi = vector_of(point.at), at = x * shape.values(xi);
+        const Vec3 xi = vector_of(point.at);
+        const Vec3 at = x * shape.values(xi);
         const Mat3 jacobian = x * shape.slopes(xi);
-        moments += point.weight * jacobian.determinant() * at * at.transpose();
+        own += density * point.weight * jacobian.determinant() * at.homogeneous() * at.homogeneous().transpose();
       }
     }
   }
-  return moments;
+  material += own;
+  const Eigen::Matrix4Xd nodes = mesh.nodes.colwise().homogeneous();
+  if (is_lumped) own = density * nodes * nodal_volumes(mesh).asDiagonal() * nodes.transpose();
+  lumped += own;
+}
+
+Mat3 about_centre(const Eigen::Matrix4d& moments) {
+  const Vec3 first = moments.topRightCorner<3, 1>();
+  return moments.topLeftCorner<3, 3>() - first * first.transpose() / moments(3, 3);
 }
 
 // A plane of symmetry along the axis: nothing turns about it.
@@ -65,35 +84,81 @@ bool has_modes(const Output& output) {
   return !columns.empty() && columns.front().name == "frequency";
 }
 
-bool is_slender(const Mesh& mesh, const Vec3& axis) {
-  const Eigen::RowVectorXd along = axis.transpose() * mesh.nodes;
-  const Points beside = mesh.nodes - axis * along;
+bool is_slender(const Points& nodes, const Vec3& axis) {
+  const Eigen::RowVectorXd along = axis.transpose() * nodes;
+  const Points beside = nodes - axis * along;
   const double width = (beside.rowwise().maxCoeff() - beside.rowwise().minCoeff()).maxCoeff();
   return along.maxCoeff() - along.minCoeff() > slender * width;
 }
 
-// Only springs, walls, sums and means of faces hold it.
-bool turns_as_a_whole(const Problem& problem, const SubstructurePtr& part) {
+LumpedInertia worst_of(const Moments& moments, const Points& nodes, bool has_twist) {
+  const Mat3 lumped = about_centre(moments.lumped), material = about_centre(moments.material);
+  const EigenPairs principal = symmetric_eigen(material);
+  LumpedInertia worst;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = principal.vectors.col(i);
+    if (!has_twist && is_slender(nodes, axis)) continue;
+    const double ratio = (lumped.trace() - axis.dot(lumped * axis)) / (material.trace() - axis.dot(material * axis));
+    if (ratio > worst.ratio) worst = {ratio, axis};
+  }
+  return worst;
+}
+
+// Substructures that are bonded to each other.
+struct Whole {
+  std::vector<SubstructurePtr> parts;
+  LumpedInertia inertia;
+
+  void measure();
+  double behind() const { return 1.0 - 1.0 / inertia.ratio; }
+  std::string label() const {
+    std::vector<std::string> names;
+    for (const SubstructurePtr& part : parts) names.push_back(part->name);
+    return (names.size() == 1 ? "" : "the bonded body of ") + list_of_names(names);
+  }
+};
+
+void Whole::measure() {
+  Moments moments;
+  Points nodes(3, 0);
+  for (const SubstructurePtr& part : parts) {
+    const Mesh& mesh = *part->mesh;
+    moments.add(mesh, part->material.density, !has_consistent_mass(mesh));
+    nodes.conservativeResize(3, nodes.cols() + mesh.n_nodes());
+    nodes.rightCols(mesh.n_nodes()) = mesh.nodes;
+  }
+  inertia = worst_of(moments, nodes, false);
+}
+
+bool is_bond(const Interface& interface) { return interface.law->is_tie() && !interface.means && !interface.cyclic; }
+
+// In the order of their first substructures. Only springs, walls, sums and means of faces hold each.
+std::vector<Whole> what_turns_as_a_whole(const Problem& problem) {
+  const auto& parts = problem.substructures;
+  const int n = static_cast<int>(parts.size());
+  const auto index = [&](const Substructure* part) { return index_of(parts, part); };
+  UnionFind bonded(n);
+  for (const InterfacePtr& interface : problem.interfaces)
+    if (is_bond(*interface)) bonded.join(index(interface->side_1.part.get()), index(interface->side_2.part.get()));
+  std::set<int> held;
   for (const StepPtr& step : problem.steps) {
     if (step->is_static && problem.steps.size() > 1) continue;
     for (const SupportPtr& support : supports_of(problem, *step))
-      if (!support->kind->law() && std::any_of(support->on.begin(), support->on.end(), [&](const FaceOrRegion& place) {
-            return &part_of(place) == part.get();
-          }))
-        return false;
+      if (!support->kind->law())
+        for (const FaceOrRegion& place : support->on) held.insert(bonded.root(index(&part_of(place))));
   }
-  return std::none_of(problem.interfaces.begin(), problem.interfaces.end(), [&](const InterfacePtr& interface) {
-    if (interface->side_1.part != part && interface->side_2.part != part) return false;
-    return !interface->means && !is_isolator(*interface);
-  });
+  for (const InterfacePtr& interface : problem.interfaces) {
+    const int one = bonded.root(index(interface->side_1.part.get())),
+              other = bonded.root(index(interface->side_2.part.get()));
+    if (!interface->means && !is_isolator(*interface) && (one != other || interface->cyclic)) held.insert({one, other});
+  }
+  std::map<int, Whole> wholes;
+  for (int i = 0; i < n; ++i)
+    if (const int root = bonded.root(i); !held.contains(root)) wholes[root].parts.push_back(parts[i]);
+  std::vector<Whole> in_order;
+  for (auto& [root, whole] : wholes) in_order.push_back(std::move(whole));
+  return in_order;
 }
-
-struct SlowPart {
-  const Substructure* part;
-  LumpedInertia inertia;
-
-  double behind() const { return 1.0 - 1.0 / inertia.ratio; }
-};
 
 // In motion, or in modes of an output: nothing else asks for inertia.
 struct Asked {
@@ -115,47 +180,42 @@ bool is_tuned_implicitly(const Problem& problem) {
 }  // namespace
 
 LumpedInertia lumped_inertia(const Mesh& mesh, bool has_twist) {
-  const Vec volumes = nodal_volumes(mesh);
-  const Vec3 centre = mesh.nodes * volumes / volumes.sum();
-  const Points arm = mesh.nodes.colwise() - centre;
-  const Mat3 lumped = arm * volumes.asDiagonal() * arm.transpose(), material = material_moments(mesh, centre);
-  const EigenPairs principal = symmetric_eigen(material);
-  LumpedInertia worst;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 axis = principal.vectors.col(i);
-    if (!has_twist && is_slender(mesh, axis)) continue;
-    const double ratio = (lumped.trace() - axis.dot(lumped * axis)) / (material.trace() - axis.dot(material * axis));
-    if (ratio > worst.ratio) worst = {ratio, axis};
-  }
-  return worst;
+  Moments moments;
+  moments.add(mesh, 1.0);
+  return worst_of(moments, mesh.nodes, has_twist);
 }
 
 void doubt_slow_turning(const Problem& problem) {
   const Asked asked(problem);
-  std::vector<SlowPart> slow_parts;
-  std::set<const Mesh*> told;
-  for (const SubstructurePtr& part : problem.substructures) {
-    if (!asked.lumps(*part->mesh) || has_consistent_mass(*part->mesh) || !turns_as_a_whole(problem, part) ||
-        !told.insert(part->mesh.get()).second)
+  std::vector<Whole> slow_ones;
+  std::set<std::vector<const Mesh*>> told;
+  for (Whole& whole : what_turns_as_a_whole(problem)) {
+    std::vector<const Mesh*> meshes;
+    for (const SubstructurePtr& part : whole.parts) meshes.push_back(part->mesh.get());
+    const auto lumps = [&](const Mesh* mesh) { return asked.lumps(*mesh) && !has_consistent_mass(*mesh); };
+    const auto has_cells = [](const Mesh* mesh) { return mesh->has_cells(); };
+    if (!std::all_of(meshes.begin(), meshes.end(), has_cells) || !std::any_of(meshes.begin(), meshes.end(), lumps) ||
+        !told.insert(meshes).second)
       continue;
-    const SlowPart turning{part.get(), lumped_inertia(*part->mesh, false)};
-    if (turning.behind() >= slow) slow_parts.push_back(turning);
+    whole.measure();
+    if (whole.behind() >= slow) slow_ones.push_back(std::move(whole));
   }
-  if (slow_parts.empty()) return;
-  std::stable_sort(slow_parts.begin(), slow_parts.end(),
-                   [](const SlowPart& a, const SlowPart& b) { return a.inertia.ratio > b.inertia.ratio; });
-  const SlowPart& worst = slow_parts.front();
+  if (slow_ones.empty()) return;
+  std::stable_sort(slow_ones.begin(), slow_ones.end(),
+                   [](const Whole& a, const Whole& b) { return a.inertia.ratio > b.inertia.ratio; });
+  const Whole& worst = slow_ones.front();
   const LumpedInertia& inertia = worst.inertia;
   std::string others;
-  for (size_t i = 1; i < slow_parts.size(); ++i)
-    others += fmt::format("{}'{}' {:.2g} %", i == 1 ? "; also " : ", ", slow_parts[i].part->name,
-                          100.0 * slow_parts[i].behind());
+  for (size_t i = 1; i < slow_ones.size(); ++i)
+    others +=
+        fmt::format("{}{} {:.2g} %", i == 1 ? "; also " : ", ", slow_ones[i].label(), 100.0 * slow_ones[i].behind());
   warn(fmt::format(
-      "{}problem '{}': substructure '{}' turns as a whole, and its masses at the nodes have {:.3g} times the moment of "
+      "{}problem '{}': {}{} turns as a whole, and its masses at the nodes have {:.3g} times the moment of "
       "inertia of the material about the axis ({:.2g}, {:.2g}, {:.2g}): under a torque it spins {:.2g} % too slowly, "
       "and swings on springs {:.2g} % too slowly; use more cells (n across: 2/n^2 too much), or cells of order two{}",
-      worst.part->origin.prefix(), problem.name, worst.part->name, inertia.ratio, inertia.axis[0], inertia.axis[1],
-      inertia.axis[2], 100.0 * worst.behind(), 100.0 * (1.0 - 1.0 / std::sqrt(inertia.ratio)), others));
+      worst.parts.front()->origin.prefix(), problem.name, worst.parts.size() == 1 ? "substructure " : "", worst.label(),
+      inertia.ratio, inertia.axis[0], inertia.axis[1], inertia.axis[2], 100.0 * worst.behind(),
+      100.0 * (1.0 - 1.0 / std::sqrt(inertia.ratio)), others));
 }
 
 void doubt_lumped_inertia(const Problem& problem) {
@@ -166,7 +226,7 @@ void doubt_lumped_inertia(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) {
     if (!asked.lumps(*part->mesh) || !told.insert(part->mesh.get()).second) continue;
     const LumpedInertia lumped = lumped_inertia(*part->mesh);
-    if (lumped.ratio < most || !is_slender(*part->mesh, lumped.axis) ||
+    if (lumped.ratio < most || !is_slender(part->mesh->nodes, lumped.axis) ||
         is_kept_from_turning(problem, part, lumped.axis))
       continue;
     warn(fmt::format(

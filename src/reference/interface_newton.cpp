@@ -195,17 +195,31 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
   outcome.distance = now.distance;
   outcome.converged = outcome.residual <= settings_.tolerance;
   rows_->note_size(now.size);
-  outcome.is_apart = increment.is_static && now.rate.size() > 0 && now.rate.cwiseAbs().maxCoeff() > rows_->extent();
+  outcome.is_apart = increment.is_static && is_apart(now);
   rows_->keep(now, records, increment);
   f_ = std::move(now.f);
   return outcome;
+}
+
+// What only touches has no equilibrium apart; what is held, as by springs, is no small displacement any more.
+bool InterfaceNewton::is_apart(const Fields& now) const {
+  constexpr double too_far = 10.0;  // of the assembly's size, as LATIN has it
+  const std::vector<Point>& points = rows_->model().exchange.points;
+  for (size_t p = 0; p < points.size(); ++p) {
+    if (!points[p].law) continue;
+    const double most = points[p].law->shown().gap ? rows_->extent() : too_far * rows_->extent();
+    for (int d = 0; d < 3; ++d)
+      if (const int i = assembly_->row(p, d); i >= 0 && std::abs(now.rate[i]) > most) return true;
+  }
+  return false;
 }
 
 void InterfaceNewton::check_together(const Outcome& outcome) const {
   if (!outcome.is_apart) return;
   throw NumericalError(
       fmt::format("step '{}': sides of an interface move apart by more than the assembly's size; likely cause: a body "
-                  "held by contact alone has separated, so that there is no equilibrium",
+                  "held by contact alone has separated, so that there is no equilibrium, or springs are too soft for "
+                  "the load that they hold",
                   rows_->model().step->name));
 }
 

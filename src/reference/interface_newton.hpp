@@ -22,7 +22,7 @@ class InterfaceNewton {
   void start(const std::vector<PointRecord>& records);
   // Solves for the records' forces, from the reduced forces at hand, and completes their trials. Throws NumericalError.
   Outcome solve(std::vector<PointRecord>& records, const Increment& increment);
-  // Throws NumericalError where the sides of an interface have moved apart.
+  // Throws NumericalError where the sides of an interface have moved too far apart.
   void check_together(const Outcome& outcome) const;
   Vec& reduced_force() { return f_; }
   const MonolithicSettings& settings() const { return settings_; }
@@ -35,6 +35,7 @@ class InterfaceNewton {
   Vec times(const Tangents& tangents, const Vec& x) const;
   Vec factor_solve(const Vec& phi) const;
   Vec direction(const Tangents& tangents, const Fields& now);
+  bool is_apart(const Fields& now) const;
   void sweep(Vec& f, const std::vector<PointRecord>& records, const Increment& increment) const;
 
   InterfaceRows* rows_;

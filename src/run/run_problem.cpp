@@ -113,8 +113,10 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
     if (const auto i = static_cast<size_t>(&step - result.steps.data()); i < result.free.size())
       line += what_is_free(result.free[i]);
     if (step.increments_not_converged > 0)
-      line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,
-                          step.worst_indicator);
+      line +=
+          fmt::format("; {} NOT CONVERGED ({})", step.increments_not_converged,
+                      std::isfinite(step.worst_indicator) ? fmt::format("worst indicator {:.1e}", step.worst_indicator)
+                                                          : "parts have moved too far");
     say(line);
   }
   for (const std::string& line : bolt_lines(problem, result)) say(line);

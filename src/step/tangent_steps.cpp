@@ -1,6 +1,7 @@
 #include "step/tangent_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "law/law_slope.hpp"
@@ -55,8 +56,10 @@ double TangentSteps::end_step(double before, const std::function<double(double)>
   constexpr double most_rise = 10.0;
   const bool may_rise = follows_ && before < rises_below_;
   double best = 1.0, least = std::numeric_limits<double>::infinity();
-  for (double share = 1.0; share > 0.01; share *= 0.5) {
+  bool falls = false;
+  for (double share = 1.0; share > 0.01 && !falls; share *= 0.5) {
     const double now = distance(share);
+    falls = share == 1.0 && n_changed == 0 && std::abs(now - before) < 1e-6 * before;
     if (now < least) {
       least = now;
       best = share;
@@ -69,14 +72,15 @@ double TangentSteps::end_step(double before, const std::function<double(double)>
     rises_below_ = 0.5 * before;
   else if (follows_)
     cannot_follow();
-  choose_softest(best, n_changed, eta);
+  choose_softest(best, n_changed, falls || eta < 1e-3);
   return best;
 }
 
-void TangentSteps::choose_softest(double share, int n_changed, double eta) {
+// What falls across a gap under a small force keeps its distance until it lands: so soft that it lands at once.
+void TangentSteps::choose_softest(double share, int n_changed, bool is_quiet) {
   if (share < 1.0)
     softest_ = share < 0.4 ? std::min(3.0 * softest_, hard_softest) : softest_;
-  else if (n_changed == 0 && eta < 1e-3)
+  else if (n_changed == 0 && is_quiet)
     softest_ = std::max(softest_ / 30.0, least_softest);
   else
     softest_ = std::max(softest_ / 3.0, usual_softest);

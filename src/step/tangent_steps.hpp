@@ -32,7 +32,7 @@ class TangentSteps {
   double end_step(double before, const std::function<double(double share)>& distance, int n_changed, double eta);
 
  private:
-  void choose_softest(double share, int n_changed, double eta);
+  void choose_softest(double share, int n_changed, bool is_quiet);
 
   int n_ = 0;
   bool follows_ = false;

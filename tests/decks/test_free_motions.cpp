@@ -252,5 +252,35 @@ problem{ name = "guided", substructures = { bar }, supports = { guides }, steps 
   EXPECT_THROW(run_text(guided, {}, 1), InputError);
 }
 
+// 10 N/m: a decimetre under 1 N, however small the block; ten metres under 100 N are no small displacement.
+TEST(FreeMotion, on_soft_springs_is_hookes_until_it_is_too_large_and_that_is_said) {
+  const std::string soft = R"(
+local p = param{ force = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local block = substructure{ name = "block", material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 3, 3, 3 } } }
+local spring = support.spring{ name = "spring", on = block:face "zmin", x = 10, y = 10, z = 10, about_x = 10, about_y = 10, about_z = 10 }
+problem{ name = "soft", substructures = { block }, supports = { spring },
+  steps = { step.static{ name = "push", increments = 2, loads = { load.force{ on = block:face "zmax", z = -p.force } } } },
+  outputs = { output.history{ name = "top", on = block:face "zmax", quantity = "displacement" } } }:run{}
+)";
+  for (const char* solver : solvers) {
+    const auto [run, said] = heard(soft, {}, solver);
+    EXPECT_NEAR(run.column("top", "z").back(), -0.1, 1e-7) << solver;
+    EXPECT_TRUE(run.result->converged) << solver << said;
+  }
+  const auto [run, said] = heard(soft, {{"force", "100"}}, "latin{}");
+  EXPECT_FALSE(run.result->converged);
+  EXPECT_NE(said.find("at substructure 'block', interface 'spring': it is unconstrained, springs are too soft for the "
+                      "load that they hold"),
+            std::string::npos)
+      << said;
+  try {
+    run_text(soft, {{"force", "100"}}, 1, "monolithic{}");
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("springs are too soft for the load that they hold"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace dygita::test::free_motions_tests

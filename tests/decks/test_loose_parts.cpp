@@ -230,5 +230,39 @@ problem{ name = "bent", substructures = { base, block, arm }, interfaces = { sea
   }
 }
 
+// A block of 0.6 N, 0.01 mm above a table: a force beside which its contacts are stiff brings it down.
+TEST(LoosePart, falls_across_a_gap_under_its_own_weight) {
+  const std::string above = R"(
+local p = param{ guided = 1, n = 2, increments = 1, mu = 0, pressure = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local base = substructure{ name = "table", material = steel, mesh = mesh.box{ origin = { 0, 0, -10*mm }, size = { 20*mm, 20*mm, 10*mm }, cells = { 2, 2, 2 } } }
+local block = substructure{ name = "block", material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { p.n, p.n, p.n } } }
+local contact = interface.contact{ name = "contact", between = { block:face "zmin", base:face "zmax" }, gap = 0.01*mm, friction = p.mu }
+local supports = { support.fixed{ name = "floor", on = base:face "zmin" } }
+if p.guided == 1 then supports[2] = support.symmetry{ name = "guide", on = { block:face "xmin", block:face "ymin" } } end
+local loads = { load.gravity{ z = -10 } }
+if p.pressure > 0 then loads = { load.pressure{ on = block:face "zmax", history = p.pressure } } end
+problem{ name = "above", substructures = { base, block }, interfaces = { contact }, supports = supports,
+  steps = { step.static{ name = "fall", increments = p.increments, loads = loads } },
+  outputs = { output.joint{ name = "contact", on = contact }, output.history{ name = "block", on = block:face "zmax", quantity = "displacement" } } }:run{}
+)";
+  for (const char* solver : {"latin{}", "latin{ static_steps = 'assembled' }", "monolithic"})
+    for (const char* guided : {"0", "1"})
+      for (const char* n : {"1", "2", "3"})
+        for (const char* mu : {"0", "0.3"})
+          for (const char* pressure : {"0", "1e4"})
+            for (const char* increments : {"1", "3"}) {
+              const DeckRun run = run_text(
+                  above, {{"guided", guided}, {"n", n}, {"mu", mu}, {"pressure", pressure}, {"increments", increments}},
+                  1, solver)[0];
+              const std::string what = fmt::format("{} guided {} n {} mu {} pressure {} increments {}", solver, guided,
+                                                   n, mu, pressure, increments);
+              EXPECT_TRUE(run.result->converged) << what;
+              const double load = pressure[0] == '0' ? 7800 * 8e-6 * 10.0 : 4.0;
+              EXPECT_NEAR(run.column("contact", "normal").back(), -load, 1e-5 * load) << what;
+              EXPECT_NEAR(run.column("block", "z").back(), -1e-5 - load / 4e-4 * 0.03 / 210e9, 2e-10) << what;
+            }
+}
+
 }  // namespace
 }  // namespace dygita::test::loose_parts_tests
