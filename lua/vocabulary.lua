@@ -45,8 +45,7 @@ local function constructor(entry)
       return made
     end
     if entry.is_mass then
-      local made = masses.declare(entry, arguments, line)
-      return made
+      return masses.declare(entry, arguments, line)
     end
     if entry.path == "problem" then
       spectra.leave_out(arguments, of_motion, line)

@@ -1,3 +1,5 @@
+// The deck of an input file. One writer, since each step's loads and supports take the place of those that earlier
+// steps have written; hence longer than most.
 #include "foreign/abaqus_deck.hpp"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,5 @@
+// *RIGID BODY and *COUPLING. One source, since a card, a held direction, a force and a mass each add to what others
+// have said of the same reference node; hence longer than most.
 #include "foreign/abaqus_references.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -184,7 +184,7 @@ MeshCut cut_along(const Mesh& mesh, const std::vector<InnerFacet>& facets, const
   for (const FacetKey& key : barrier) {
     const auto [one, other] = cells_at.at(key);
     if (other >= 0 && is_first[static_cast<size_t>(one)] == is_first[static_cast<size_t>(other)])
-      throw InputError("the surface does not divide the part: cells on both sides of it hang together around it");
+      throw InputError("the surface does not divide the part: cells on both sides of it are connected around it");
   }
   DividedCells all{mesh.nodes, {}, {}, 0};
   for (size_t c = 0; c < cells.size(); ++c) all.add(*cells[c].first, cells[c].second, is_first[c] != 0 ? 0 : 1);

@@ -28,7 +28,7 @@ struct InnerFacet {
   FacetKey corners;
   int behind;
 };
-// Throws InputError where cells on both sides of the facets hang together around them.
+// Throws InputError where cells on both sides of the facets are connected around them.
 MeshCut cut_along(const Mesh& mesh, const std::vector<InnerFacet>& facets, const std::string& face);
 
 }  // namespace dygita

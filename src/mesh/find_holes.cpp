@@ -71,7 +71,7 @@ std::vector<Vec3> normals_of_faces(const Boundary& b) {
   return axes;
 }
 
-// Facets along the axis, by what hangs together around it.
+// Facets along the axis, by what is connected around it.
 std::map<int, std::vector<int>> sleeves_along(const Boundary& b, const Vec3& axis) {
   const auto is_along = [&](int f) { return std::abs(b.normals[f].dot(axis)) < most_leaning; };
   UnionFind together(static_cast<int>(b.facets.size()));

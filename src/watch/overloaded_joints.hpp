@@ -8,7 +8,7 @@
 
 namespace dygita {
 
-// One line for each group of parts that hangs together and whose joints all slide, yield or stand open, while the loads
+// One line for each group of connected parts whose joints all slide, yield or stand open, while the loads
 // pull more than these hold: with the force, what the joints hold of it, and their names. Of a static increment.
 std::vector<std::string> overloaded_joints(const Instant& instant);
 
