@@ -1,9 +1,11 @@
 #include "interfaces/rings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "law/law.hpp"
+#include "meeting/sagitta.hpp"
 #include "meeting/segments.hpp"
 #include "model/load.hpp"
 
@@ -45,12 +47,41 @@ bool holds_always(const Problem& problem, const InterfacePtr& interface) {
   return interface->law->is_tie();
 }
 
+// Is there such a way with one of `one_of` in it?
+template <class Place>
+bool reaches_with(const Place& one, const Place& other, const std::vector<std::pair<Place, Place>>& joined,
+                  const std::vector<std::pair<Place, Place>>& one_of) {
+  return std::any_of(one_of.begin(), one_of.end(), [&](const auto& link) {
+    const auto& [a, b] = link;
+    return (reaches(one, a, joined) && reaches(b, other, joined)) ||
+           (reaches(one, b, joined) && reaches(a, other, joined));
+  });
+}
+
 }  // namespace
 
-Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) : problem_(problem) {
+bool is_alike(const Law& a, const Law& b) {
+  const std::vector<LawParameter> of_a = a.parameters(), of_b = b.parameters();
+  return a.word() == b.word() &&
+         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const LawParameter& p, const LawParameter& q) { return p.value == q.value; });
+}
+
+bool has_load(const Problem& problem, const Interface* interface) {
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Target& target : load->on)
+        if (const auto* on = std::get_if<InterfacePtr>(&target); on && on->get() == interface) return true;
+  return false;
+}
+
+Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings)
+    : problem_(problem), areas_(problem.interfaces.size()), moduli_(problem.interfaces.size()) {
   for (size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
+    moduli_[i] =
+        std::min(interface.side_1.part->material.shear_modulus(), interface.side_2.part->material.shear_modulus());
     if (meetings[i]->matches()) matching_.insert(static_cast<int>(i));
     if (holds_always(problem, problem.interfaces[i])) holding_.insert(static_cast<int>(i));
     add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
@@ -65,36 +96,42 @@ std::function<bool(const Vec3&)> Rings::closed_by(int i) const {
   std::vector<const Entry*> near;
   for (const Entry& entry : entries_) {
     const double apart = std::max((entry.low - own.high).maxCoeff(), (own.low - entry.high).maxCoeff());
-    if (apart <= entry.tolerance && entry.interface != i && comes_before(entry.interface, i)) near.push_back(&entry);
+    if (apart <= entry.tolerance && is_asked(entry.interface, i)) near.push_back(&entry);
   }
   if (near.empty()) return {};
   return [this, i, near = std::move(near)](const Vec3& x) { return are_joined(i, near, x); };
 }
 
+// Three faces that meet in a circle have each their own polygon of it: chords of an eighth part of it are a tenth of
+// their length off, and facets of round faces their sagitta.
 void Rings::add(int i, const Face& face, const std::vector<Facet>& facets) {
+  constexpr double near = 0.1, nearest = 0.5;  // of the shortest edge
   PlacedFace own = placed(face);
   own.facets = facets;
   const FaceInSpace in_space(own);
-  Entry entry{i, {}, 1e-6 * in_space.smallest_edge(), in_space.x.rowwise().minCoeff(), in_space.x.rowwise().maxCoeff()};
+  const double edge = in_space.smallest_edge();
+  const double tolerance = std::min(std::max(near * edge, sagitta_margin * in_space.sagitta()), nearest * edge);
+  Entry entry{i, {}, tolerance, in_space.x.rowwise().minCoeff(), in_space.x.rowwise().maxCoeff()};
   double area = 0.0;
   for (const FaceInSpace::Part& part : in_space.parts) {
     entry.polygons.push_back(part.x);
     area += part.area;
   }
   entries_.push_back(std::move(entry));
-  areas_.resize(problem_.interfaces.size());
   areas_[static_cast<size_t>(i)] = std::max(areas_[static_cast<size_t>(i)], area);
 }
 
 bool Rings::are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const {
   const Interface& own = *problem_.interfaces[static_cast<size_t>(i)];
-  std::vector<std::pair<const Substructure*, const Substructure*>> joined;
+  std::vector<std::pair<const Substructure*, const Substructure*>> joined, contacts;
   for (const Entry* entry : by) {
     if (!has(*entry, x)) continue;
     const Interface& other = *problem_.interfaces[static_cast<size_t>(entry->interface)];
-    joined.emplace_back(other.side_1.part.get(), other.side_2.part.get());
+    (holding_.contains(entry->interface) ? joined : contacts)
+        .emplace_back(other.side_1.part.get(), other.side_2.part.get());
   }
-  return reaches(own.side_1.part.get(), own.side_2.part.get(), joined);
+  const Substructure *one = own.side_1.part.get(), *other = own.side_2.part.get();
+  return reaches(one, other, joined) || reaches_with(one, other, joined, contacts);
 }
 
 // The same of the cut faces of a sector: parts at x, on the first of them, and where x came from, on the second. Where
@@ -120,19 +157,45 @@ bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x
   return reaches<Place>({own.side_1.part.get(), 1}, {own.side_2.part.get(), 2}, joined);
 }
 
+bool Rings::is_asked(int i, int j) const {
+  return i != j && (comes_before(i, j) || (are_contacts_of_one_kind(i, j) && is_stronger(i, j)));
+}
+
 bool Rings::comes_before(int i, int j) const {
-  constexpr double alike = 1e-6;
   if (!holding_.contains(i) || !holding_.contains(j)) return holding_.contains(i);
   const auto is_cyclic = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->cyclic.has_value(); };
-  if (is_cyclic(i) != is_cyclic(j)) return is_cyclic(j);
-  const double a = areas_[static_cast<size_t>(i)], b = areas_[static_cast<size_t>(j)];
-  if (std::abs(a - b) > alike * std::max(a, b)) return a > b;
+  return is_cyclic(i) != is_cyclic(j) ? is_cyclic(j) : is_stronger(i, j);
+}
+
+// Between stiff bodies first: of contacts they carry the more; tied to each other through a node of a soft body, they
+// would feel each other over many iterations only, which tells for decades.
+bool Rings::is_stronger(int i, int j) const {
+  constexpr double alike = 1e-6;
+  const auto stiffness = [&](int k) {
+    const double modulus = moduli_[static_cast<size_t>(k)];
+    return holding_.contains(k) ? std::pow(10.0, std::floor(std::log10(modulus))) : modulus;
+  };
+  const auto area = [&](int k) { return areas_[static_cast<size_t>(k)]; };
+  const auto differ = [](double a, double b) { return std::abs(a - b) > alike * std::max(a, b); };
+  if (differ(stiffness(i), stiffness(j))) return stiffness(i) > stiffness(j);
+  if (differ(area(i), area(j))) return area(i) > area(j);
   const auto names = [&](int k) {
     const Interface& own = *problem_.interfaces[static_cast<size_t>(k)];
     const auto sides = std::minmax({own.side_1.label(), own.side_2.label()});
     return std::tuple(sides.first, sides.second, k);
   };
   return names(i) < names(j);
+}
+
+// Where nodes meet, contacts act as one already (exchange.cpp).
+bool Rings::are_contacts_of_one_kind(int i, int j) const {
+  const auto can_share = [&](int k) {
+    const Interface& own = *problem_.interfaces[static_cast<size_t>(k)];
+    return !holding_.contains(k) && own.law->joins_its_like() && !own.has_gap_of_geometry && !own.cyclic &&
+           !has_load(problem_, &own);
+  };
+  return !matching_.contains(j) && can_share(i) && can_share(j) &&
+         is_alike(*problem_.interfaces[static_cast<size_t>(i)]->law, *problem_.interfaces[static_cast<size_t>(j)]->law);
 }
 
 bool Rings::has(const Entry& entry, const Vec3& x) {

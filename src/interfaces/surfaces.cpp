@@ -29,22 +29,6 @@ bool takes_part(const Problem& problem, const Step& step, const Surface& surface
 
 namespace {
 
-// What some load acts on is a law of its own, never part of a group nor one with its neighbours.
-bool has_load(const Problem& problem, const Interface* interface) {
-  for (const StepPtr& step : problem.steps)
-    for (const LoadPtr& load : step->loads)
-      for (const Target& target : load->on)
-        if (const auto* on = std::get_if<InterfacePtr>(&target); on && on->get() == interface) return true;
-  return false;
-}
-
-bool is_alike(const Law& a, const Law& b) {
-  const std::vector<LawParameter> of_a = a.parameters(), of_b = b.parameters();
-  return a.word() == b.word() &&
-         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                    [](const LawParameter& p, const LawParameter& q) { return p.value == q.value; });
-}
-
 // Laws that join their like share one object: where such faces meet at a node they act as one (exchange.cpp).
 class SharedLaws {
  public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "latin/local_stage.hpp"
 
@@ -46,6 +47,15 @@ class Indicator {
       eta = std::max(eta, force_share_ * std::sqrt(sums.force_distance / forces));
     }
     return {eta, size, sums.force_size};
+  }
+  // Fields that grow beyond any proportion to what a dynamic increment began with (W), along what nothing determines,
+  // make the distance no smaller: the indicator of what they may be at most, where that is above the tolerance.
+  std::optional<double> of_runaway(const IndicatorSums& sums, double beginning, double tolerance) const {
+    constexpr double most = 1e4;
+    const double size = sums.force_size + sums.velocity_size, bound = most * std::max({largest_, floor_, beginning});
+    if (!(size > bound) || bound == 0.0) return {};
+    const double eta = std::sqrt((sums.force_distance + sums.velocity_distance) / bound);
+    return eta > tolerance ? std::optional(eta) : std::nullopt;
   }
   // Changes below this (W) are far below what the indicator sees: a hundredth of the tolerance.
   double quiet(double tolerance) const { return std::pow(1e-2 * tolerance, 2) * largest_; }

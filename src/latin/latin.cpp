@@ -16,6 +16,7 @@ void Iteration::run(SearchDirections& directions, int increment, const Goal& goa
   directions.begin(goal.tolerance);
   Persistence persistence(goal.limit);
   best.outcome = {};
+  double beginning = 0.0;  // W
   for (int n = 0;; ++n) {
     Told::heed_interrupt(n, is_constant ? 64 : 8);
     // Linear stage: every piece by itself; ties in balance.
@@ -27,6 +28,9 @@ void Iteration::run(SearchDirections& directions, int increment, const Goal& goa
     // Indicator: how far both answers are apart.
     Outcome outcome = step_.indicator.measure(at.sums);
     step_.check_finite(outcome, increment);
+    if (n == 0) beginning = outcome.size + at.sums.force_distance + at.sums.velocity_distance;
+    if (!step_.model.scheme.is_static)
+      outcome.eta = step_.indicator.of_runaway(at.sums, beginning, goal.tolerance).value_or(outcome.eta);
     outcome.eta = std::max(outcome.eta, directions.imbalance());
     note(outcome, best);
     told_.tell_iteration(best, directions.n_turned());

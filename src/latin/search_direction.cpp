@@ -71,6 +71,12 @@ double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas)
   return port.area * sum / weights;
 }
 
+// Of a piece without a Schur complement: the diagonal that others of the like have, in the mean (manual, eq. K11).
+double from_area(const StepModel& model, const Port& port, double modulus) {
+  const Damping& damping = model.cut->piece(port.piece).body->material.damping;
+  return 1.5 * model.scheme.c1(damping) * modulus * std::sqrt(port.area);
+}
+
 // Of each piece that is solved here.
 std::vector<ElasticTensor> mean_tensors(const StepModel& model) {
   std::vector<ElasticTensor> tensors(static_cast<size_t>(model.cut->n_pieces()));
@@ -113,9 +119,9 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         direction = schur;
         continue;
       }
+      const double modulus = d == 0 ? tensor.young(normal) : tensor.wave_modulus(normal, frames[p]->col(d));
       if (model.scheme.is_static) {
         // A body that only this unknown could hold has no stiffness of its own there.
-        const double modulus = d == 0 ? tensor.young(normal) : tensor.wave_modulus(normal, frames[p]->col(d));
         direction = has_schur            ? std::max(schur, 1e-3 * row.reference_stiffness)
                     : model.is_assembled ? 0.3 * modulus * std::sqrt(port.area)  // of cells under the point alone
                                          : row.static_stiffness;
@@ -131,7 +137,8 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         continue;
       }
       const double k_step = std::hypot(model.scheme.from_end(impedance), mass / model.scheme.dt);
-      direction = has_schur ? std::pow(schur, 0.75) * std::pow(k_step, 0.25) : k_step;
+      const double stiffness = has_schur ? schur : std::max(k_step, from_area(model, port, modulus));
+      direction = std::pow(stiffness, 0.75) * std::pow(k_step, 0.25);
     }
   }
   model.unknowns.complete(k.data());

@@ -215,9 +215,13 @@ std::vector<int> Mortar::distances(const std::vector<Raw>& raw, const std::vecto
         }
     reached.clear();
   };
+  // A node at the rim of what its facets cover has its point further in.
+  const auto goes = [&](size_t i) {
+    return is_taken_away &&
+           (is_taken_away(raw[i].place(carrier().x)) || is_taken_away(carrier().x.col(static_cast<Eigen::Index>(i))));
+  };
   for (size_t i = 0; i < raw.size(); ++i)
-    if (raw[i].is_covered() && raw[i].area >= least_share * raw[i].full &&
-        !(is_taken_away && is_taken_away(raw[i].place(carrier().x)))) {
+    if (raw[i].is_covered() && raw[i].area >= least_share * raw[i].full && !goes(i)) {
       distance[i] = 0;
       reached.push_back(static_cast<int>(i));
     }

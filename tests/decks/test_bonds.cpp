@@ -239,5 +239,41 @@ problem{ name = "bar", substructures = parts, interfaces = joints, supports = { 
     EXPECT_NEAR(tip("1", fine), tip("0", fine), 1e-5 * std::abs(tip("0", fine))) << fine;
 }
 
+// Insert, skin and core meet in a circle, of which the faces of each pair have polygons of their own; so do insert,
+// skin and the pad that presses on both. A tie or a contact too many there would pull against the others.
+const std::string around_an_insert = R"(
+local p = param{ inside = 71*GPa, around = 520*MPa, friction = 0.2 }
+local cad = mesh.gmsh{ file = ")" + std::string(DYGITA_SOURCE_DIR) +
+                                     R"(/tests/decks/round_insert.geo", unit = mm, order = 2 }
+local function part(name, young, density)
+  return substructure{ name = name, mesh = cad:volume(name), material = material.elastic{ name = name, young = young, poisson = 0.3, density = density } }
+end
+local insert, core, skin, pad = part("insert", p.inside, 2800), part("core", p.around, 60), part("skin", 52*GPa, 1600), part("pad", 71*GPa, 2800)
+local top = pad:face{ normal = { 0, 0, 1 }, at = 6*mm }
+local base = support.fixed{ name = "base", on = core:face{ normal = { 0, 0, -1 } } }
+local weight = load.force{ on = top, z = -6*kN }
+local press = step.static{ name = "press", loads = { weight } }
+local glue = interface.bonded{ name = "glue", between = "all touching", of = { insert, core, skin } }
+local joint = interface.contact{ name = "joint", between = "all touching", of = { insert, skin, pad }, except = { { insert, skin } }, friction = p.friction }
+problem{ name = "insert", substructures = { insert, core, skin, pad }, interfaces = { glue, joint }, supports = { base },
+  steps = { press, step.dynamic{ name = "hit", after = press, duration = 0.1*ms, dt = 20*us,
+    loads = { weight, load.base_acceleration{ on = base, direction = { 1, 0, 1 }, history = 10*g0 } } } },
+  outputs = { output.footprint{ name = "glue", on = glue }, output.footprint{ name = "touch", on = joint } } }:run{}
+)";
+
+TEST(Bonds, around_a_round_insert_do_not_pull_against_each_other) {
+  for (const auto& [inside, around] : {std::pair{"71e9", "520e6"}, std::pair{"520e6", "71e9"}})
+    for (const char* friction : {"0.2", "0"}) {
+      const DeckRun run =
+          run_text(around_an_insert, {{"inside", inside}, {"around", around}, {"friction", friction}})[0];
+      EXPECT_TRUE(run.result->converged) << inside << " " << friction;
+      const std::vector<double>& iterations = run.result->convergence.column("iterations");
+      EXPECT_LE(largest({iterations.begin() + 1, iterations.end()}), 100.0) << inside << " " << friction;
+      EXPECT_LT(largest(run.column("glue", "pressure")), 300e6) << inside << " " << friction;
+      EXPECT_LT(largest(run.column("touch", "pressure")), 150e6)
+          << inside << " " << friction;
+    }
+}
+
 }  // namespace
 }  // namespace dygita::test::bonds_tests
