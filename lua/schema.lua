@@ -392,20 +392,25 @@ words[3][1] = {
   one_of = { "file", "stiffness" },
 }
 
+-- What declares a body by its mass; `inertia` is required where it has no default.
+local function of_mass(where, default_inertia, ...)
+  return {
+    name_of "part",
+    on({ "face" }, where),
+    { "mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, required = true, doc = "of the body" },
+    { "inertia", in_frame = "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, required = not default_inertia or nil, default_doc = default_inertia,
+      doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
+    { "at", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
+    ...
+  }
+end
+
 words[3][2] = {
   "rigid", makes = "substructure",
   doc = "A rigid body, such as an equipment box on its feet: a mass and its inertia attached to faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name), those picked by geometry also \"face 1\", \"face 2\" ... by their place there; "
     .. "an interface joins each to the face that it lies on: `interface.bonded{ name = \"feet\", between = { panel:face \"feet\", box:face \"feet\" } }`.",
-  arguments = {
-    name_of "part",
-    on({ "face" }, "faces of parts that it touches; they are stiff as far as they are joined to it"),
-    { "mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, required = true, doc = "of the body" },
-    { "inertia", in_frame = "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, required = true,
-      doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
-    { "at", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
-    frame "of `at` and along whose axes `inertia` is",
-    part_arguments[6],
-  },
+  arguments = of_mass("faces of parts that it touches; they are stiff as far as they are joined to it", nil,
+    frame "of `at` and along whose axes `inertia` is", part_arguments[6]),
 }
 
 words.mass = {
@@ -414,19 +419,11 @@ words.mass = {
     "point", makes = "substructure", is_mass = true,
     doc = "A mass with its inertia on a face, as a box or a dummy on its feet: `substructure.rigid` and the bond to each face in one. A problem that lists it has its bonds; `box.joints` is the list of them, for outputs. "
       .. "Several faces are joined each by itself.",
-    arguments = {
-      name_of "part",
-      on({ "face" }, "faces of parts that carry it"),
-      { "mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, required = true, doc = "of the body" },
-      { "inertia", in_frame = "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, default_doc = "that of a ball of a thousandth of the size of its faces",
-        doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
-      { "at", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
+    arguments = of_mass("faces of parts that carry it", "that of a ball of a thousandth of the size of its faces",
       { "motion", type = "choice", choices = { "mean", "rigid" }, default = "mean",
         doc = "what it follows: the mean motion of a face, translation and rotation, in which the face deforms freely (RBE3); or all of the face, which then stays rigid (RBE2)" },
       { "weights", type = "choice", choices = { "area", "nodes" }, default = "area", doc = "what counts in a mean motion: the area behind each node, or each node alike" },
-      frame "of `at` and along whose axes `inertia` is",
-      part_arguments[6],
-    },
+      frame "of `at` and along whose axes `inertia` is", part_arguments[6]),
   },
 }
 

@@ -164,7 +164,9 @@ bool Rings::is_asked(int i, int j) const {
 bool Rings::comes_before(int i, int j) const {
   if (!holding_.contains(i) || !holding_.contains(j)) return holding_.contains(i);
   const auto is_cyclic = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->cyclic.has_value(); };
-  return is_cyclic(i) != is_cyclic(j) ? is_cyclic(j) : is_stronger(i, j);
+  if (is_cyclic(i) != is_cyclic(j)) return is_cyclic(j);
+  if (matching_.contains(i) != matching_.contains(j)) return matching_.contains(i);
+  return is_stronger(i, j);
 }
 
 // Between stiff bodies first: of contacts they carry the more; tied to each other through a node of a soft body, they

@@ -38,9 +38,9 @@ class Rings {
   bool are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const;
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
   bool is_asked(int i, int j) const;  // may what i joins take a point off j?
-  // What holds in all steps before what does not; of two that do those of cuts last, then the one whose softer body is
-  // the stiffer by decades, then the larger, then the first by the names of what it joins: in whatever order they are
-  // declared, and wherever the assembly stands.
+  // What holds in all steps before what does not; of two that do those of cuts last, then those whose nodes meet, which
+  // give up no point, then the one whose softer body is the stiffer by decades, then the larger, then the first by the
+  // names of what it joins: in whatever order they are declared, and wherever the assembly stands.
   bool comes_before(int i, int j) const;
   bool is_stronger(int i, int j) const;
   bool are_contacts_of_one_kind(int i, int j) const;
