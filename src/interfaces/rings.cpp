@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "law/law.hpp"
 #include "meeting/sagitta.hpp"
-#include "meeting/segments.hpp"
 #include "model/load.hpp"
 
 namespace dygita {
@@ -75,8 +75,12 @@ bool has_load(const Problem& problem, const Interface* interface) {
   return false;
 }
 
-Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings)
-    : problem_(problem), areas_(problem.interfaces.size()), moduli_(problem.interfaces.size()) {
+Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings, double within)
+    : problem_(problem),
+      within_(within),
+      areas_(problem.interfaces.size()),
+      moduli_(problem.interfaces.size()),
+      near_(problem.interfaces.size(), std::numeric_limits<double>::infinity()) {
   for (size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
@@ -84,8 +88,12 @@ Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& 
         std::min(interface.side_1.part->material.shear_modulus(), interface.side_2.part->material.shear_modulus());
     if (meetings[i]->matches()) matching_.insert(static_cast<int>(i));
     if (holds_always(problem, problem.interfaces[i])) holding_.insert(static_cast<int>(i));
-    add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
-    if (!interface.cyclic) add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
+    PlacedFace one = placed(interface.side_1), other = placed(interface.side_2);
+    one.facets = meetings[i]->facets_1();
+    other.facets = meetings[i]->facets_2();
+    const bool is_whole = meetings[i]->matches() || interface.cyclic;
+    add(static_cast<int>(i), one, is_whole ? nullptr : &other);
+    if (!interface.cyclic) add(static_cast<int>(i), other, is_whole ? nullptr : &one);
   }
 }
 
@@ -96,7 +104,7 @@ std::function<bool(const Vec3&)> Rings::closed_by(int i) const {
   std::vector<const Entry*> near;
   for (const Entry& entry : entries_) {
     const double apart = std::max((entry.low - own.high).maxCoeff(), (own.low - entry.high).maxCoeff());
-    if (apart <= entry.tolerance && is_asked(entry.interface, i)) near.push_back(&entry);
+    if (apart <= tolerance(entry, i) && is_asked(entry.interface, i)) near.push_back(&entry);
   }
   if (near.empty()) return {};
   return [this, i, near = std::move(near)](const Vec3& x) { return are_joined(i, near, x); };
@@ -104,28 +112,48 @@ std::function<bool(const Vec3&)> Rings::closed_by(int i) const {
 
 // Three faces that meet in a circle have each their own polygon of it: chords of an eighth part of it are a tenth of
 // their length off, and facets of round faces their sagitta.
-void Rings::add(int i, const Face& face, const std::vector<Facet>& facets) {
+void Rings::add(int i, const PlacedFace& own, const PlacedFace* covering) {
   constexpr double near = 0.1, nearest = 0.5;  // of the shortest edge
-  PlacedFace own = placed(face);
-  own.facets = facets;
-  const FaceInSpace in_space(own);
-  const double edge = in_space.smallest_edge();
-  const double tolerance = std::min(std::max(near * edge, sagitta_margin * in_space.sagitta()), nearest * edge);
-  Entry entry{i, {}, tolerance, in_space.x.rowwise().minCoeff(), in_space.x.rowwise().maxCoeff()};
+  const FaceInSpace face(own);
+  const double edge = face.smallest_edge();
+  const double tolerance = std::min(std::max(near * edge, sagitta_margin * face.sagitta()), nearest * edge);
+  near_[static_cast<size_t>(i)] = std::min(near_[static_cast<size_t>(i)], tolerance);
+  Entry entry{i, covering ? covered(face, *covering) : std::vector<Polygon>(), tolerance, {}, {}};
   double area = 0.0;
-  for (const FaceInSpace::Part& part : in_space.parts) {
-    entry.polygons.push_back(part.x);
+  for (const FaceInSpace::Part& part : face.parts) {
+    if (!covering) entry.polygons.push_back(part.x);
     area += part.area;
   }
+  entry.low = face.x.rowwise().minCoeff();
+  entry.high = face.x.rowwise().maxCoeff();
   entries_.push_back(std::move(entry));
   areas_[static_cast<size_t>(i)] = std::max(areas_[static_cast<size_t>(i)], area);
+}
+
+// What the other face covers of the parts of a face.
+std::vector<Polygon> Rings::covered(const FaceInSpace& face, const PlacedFace& covering) const {
+  const FaceInSpace other(covering);
+  const SegmentFinder finder(face, other, within_ + sagitta_margin * (face.sagitta() + other.sagitta()));
+  constexpr double nothing = 1e-9;
+  std::vector<Polygon> polygons;
+  for (size_t p = 0; p < face.parts.size(); ++p) {
+    const auto axes = SegmentFinder::axes(face.parts[p]);
+    for (const Segment& segment : finder.segments(static_cast<int>(p)))
+      for (size_t a = 1; a + 1 < segment.region.size(); ++a) {
+        Polygon triangle(3, 3);
+        triangle << axes * segment.region[0], axes * segment.region[a], axes * segment.region[a + 1];
+        if (area_vector(triangle).norm() > nothing * face.parts[p].area)
+          polygons.emplace_back(triangle.colwise() + face.parts[p].centre);
+      }
+  }
+  return polygons;
 }
 
 bool Rings::are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const {
   const Interface& own = *problem_.interfaces[static_cast<size_t>(i)];
   std::vector<std::pair<const Substructure*, const Substructure*>> joined, contacts;
   for (const Entry* entry : by) {
-    if (!has(*entry, x)) continue;
+    if (!has(*entry, x, tolerance(*entry, i))) continue;
     const Interface& other = *problem_.interfaces[static_cast<size_t>(entry->interface)];
     (holding_.contains(entry->interface) ? joined : contacts)
         .emplace_back(other.side_1.part.get(), other.side_2.part.get());
@@ -146,7 +174,7 @@ bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x
     if (other.cyclic && matching_.contains(i) && !matching_.contains(entry.interface)) continue;
     const Substructure *a = other.side_1.part.get(), *b = other.side_2.part.get();
     for (const int cut : {1, 2}) {
-      if (!has(entry, cut == 1 ? x : opposite)) continue;
+      if (!has(entry, cut == 1 ? x : opposite, tolerance(entry, i))) continue;
       if (!other.cyclic)
         joined.push_back({{a, cut}, {b, cut}});
       else if (other.cyclic->turn.isApprox(cut == 1 ? cyclic.turn : Mat3(cyclic.turn.transpose())))
@@ -157,8 +185,17 @@ bool Rings::are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x
   return reaches<Place>({own.side_1.part.get(), 1}, {own.side_2.part.get(), 2}, joined);
 }
 
+// Soft bodies do not make those that are in contact move as one.
 bool Rings::is_asked(int i, int j) const {
-  return i != j && (comes_before(i, j) || (are_contacts_of_one_kind(i, j) && is_stronger(i, j)));
+  if (i == j) return false;
+  if (!holding_.contains(j) && holding_.contains(i) && decade(i) < decade(j)) return false;
+  return comes_before(i, j) || (are_contacts_of_one_kind(i, j) && is_stronger(i, j));
+}
+
+double Rings::decade(int i) const { return std::floor(std::log10(moduli_[static_cast<size_t>(i)])); }
+
+double Rings::tolerance(const Entry& entry, int i) const {
+  return std::min(entry.tolerance, near_[static_cast<size_t>(i)]);
 }
 
 bool Rings::comes_before(int i, int j) const {
@@ -175,7 +212,7 @@ bool Rings::is_stronger(int i, int j) const {
   constexpr double alike = 1e-6;
   const auto stiffness = [&](int k) {
     const double modulus = moduli_[static_cast<size_t>(k)];
-    return holding_.contains(k) ? std::pow(10.0, std::floor(std::log10(modulus))) : modulus;
+    return holding_.contains(k) ? std::pow(10.0, decade(k)) : modulus;
   };
   const auto area = [&](int k) { return areas_[static_cast<size_t>(k)]; };
   const auto differ = [](double a, double b) { return std::abs(a - b) > alike * std::max(a, b); };
@@ -200,10 +237,10 @@ bool Rings::are_contacts_of_one_kind(int i, int j) const {
          is_alike(*problem_.interfaces[static_cast<size_t>(i)]->law, *problem_.interfaces[static_cast<size_t>(j)]->law);
 }
 
-bool Rings::has(const Entry& entry, const Vec3& x) {
-  if ((x - entry.low).minCoeff() < -entry.tolerance || (entry.high - x).minCoeff() < -entry.tolerance) return false;
+bool Rings::has(const Entry& entry, const Vec3& x, double tolerance) {
+  if ((x - entry.low).minCoeff() < -tolerance || (entry.high - x).minCoeff() < -tolerance) return false;
   return std::any_of(entry.polygons.begin(), entry.polygons.end(),
-                     [&](const Polygon& polygon) { return lies_on(x, polygon, entry.tolerance); });
+                     [&](const Polygon& polygon) { return lies_on(x, polygon, tolerance); });
 }
 
 }  // namespace dygita

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "meeting/segments.hpp"
 #include "mesh/polygons.hpp"
 #include "model/meeting.hpp"
 
@@ -19,7 +20,8 @@ bool has_load(const Problem& problem, const Interface* interface);
 
 class Rings {
  public:
-  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings);
+  // within: how far apart faces may be that touch, beside their sagittas, m.
+  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings, double within);
 
   // At x, are both sides of an interface joined by ties that hold in all steps and come before it? Contact, which may
   // open, leaves a point to ties, never a tie to it; and to ties with one contact of its like, of stiffer bodies or
@@ -29,12 +31,14 @@ class Rings {
  private:
   struct Entry {
     int interface;
-    std::vector<Polygon> polygons;
-    double tolerance;  // m, a share of the shortest edge
+    std::vector<Polygon> polygons;  // what the sides have in common
+    double tolerance;               // m, a share of the shortest edge
     Vec3 low, high;
   };
 
-  void add(int i, const Face& face, const std::vector<Facet>& facets);
+  // A side of an interface; null: the other one covers all of it.
+  void add(int i, const PlacedFace& own, const PlacedFace* covering);
+  std::vector<Polygon> covered(const FaceInSpace& face, const PlacedFace& covering) const;
   bool are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const;
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
   bool is_asked(int i, int j) const;  // may what i joins take a point off j?
@@ -44,14 +48,18 @@ class Rings {
   bool comes_before(int i, int j) const;
   bool is_stronger(int i, int j) const;
   bool are_contacts_of_one_kind(int i, int j) const;
-  static bool has(const Entry& entry, const Vec3& x);
+  double decade(int i) const;                         // of its modulus
+  double tolerance(const Entry& entry, int i) const;  // m, for points of i
+  static bool has(const Entry& entry, const Vec3& x, double tolerance);
 
   const Problem& problem_;
+  double within_;
   std::vector<Entry> entries_;  // side after side of the interfaces, in their order
   std::set<int> holding_;       // ties in all steps
   std::set<int> matching_;      // node for node
   std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
   std::vector<double> moduli_;  // Pa, of each interface: shear modulus of the softer side
+  std::vector<double> near_;    // m, of each interface: the smaller tolerance of its sides
 };
 
 }  // namespace dygita

@@ -270,9 +270,58 @@ TEST(Bonds, around_a_round_insert_do_not_pull_against_each_other) {
       const std::vector<double>& iterations = run.result->convergence.column("iterations");
       EXPECT_LE(largest({iterations.begin() + 1, iterations.end()}), 100.0) << inside << " " << friction;
       EXPECT_LT(largest(run.column("glue", "pressure")), 300e6) << inside << " " << friction;
-      EXPECT_LT(largest(run.column("touch", "pressure")), 150e6)
-          << inside << " " << friction;
+      EXPECT_LT(largest(run.column("touch", "pressure")), 150e6) << inside << " " << friction;
     }
+}
+
+// A post on a plate, in contact or bonded, and beside it gum or foil that is bonded to both and does not reach the line
+// where they meet.
+const std::string beside_a_foot =
+    R"(
+local p = param{ soft = 5*MPa, order = 1, bonded = 0, beside = 1, chamfer = 0.5, size = 10, thickness = 0 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local gum = material.elastic{ name = "gum", young = p.soft, poisson = 0.3, density = 1200 }
+local function block(name, low, high, cells)
+  return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { low[1]*mm, low[2]*mm, low[3]*mm },
+    size = { (high[1] - low[1])*mm, (high[2] - low[2])*mm, (high[3] - low[3])*mm }, cells = cells } }
+end
+local plate, post = block("plate", { -30, -10, -10 }, { 30, 10, 0 }, { 30, 3, 2 }), block("post", { -1.5, -10, 0 }, { 1.5, 10, 20 }, { 2, 4, 8 })
+local sides = { post:face "zmin", plate:face "zmax" }
+local foot = p.bonded == 1 and interface.bonded{ name = "foot", between = sides } or interface.contact{ name = "foot", between = sides, friction = 0.2 }
+local parts, joints = { plate, post }, { foot }
+if p.beside == 1 then
+  local cad = mesh.gmsh{ file = ")" +
+    std::string(DYGITA_SOURCE_DIR) +
+    R"(/tests/decks/beside_a_foot.geo", unit = mm, order = p.order, set = { c = p.chamfer, s = p.size, t = p.thickness } }
+  for i, side in ipairs{ "left", "right" } do
+    local b = substructure{ name = side, material = gum, mesh = cad:volume(side) }
+    parts[2 + i] = b
+    table.insert(joints, interface.bonded{ name = side .. " post", between = { b:face{ normal = { 3 - 2*i, 0, 0 }, at = -1.5*mm }, post:face(i == 1 and "xmin" or "xmax") } })
+    table.insert(joints, interface.bonded{ name = side .. " plate", between = { b:face{ normal = { 0, 0, -1 } }, plate:face "zmax" } })
+  end
+end
+problem{ name = "foot", substructures = parts, interfaces = joints, supports = { support.fixed{ name = "base", on = plate:face "zmin" } },
+  steps = { step.static{ name = "press", loads = { load.force{ on = post:face "zmax", z = -400, x = 20 } } } },
+  outputs = { output.history{ name = "u", on = post:face "zmax", quantity = "displacement" } } }:run{}
+)";
+
+TEST(Bonds, that_do_not_reach_a_line_take_nothing_off_it) {
+  const auto lean = [](const Settings& settings) {
+    return run_text(beside_a_foot, settings)[0].column("u", "x").back();
+  };
+  const double contact = lean({{"beside", "0"}}), bonded = lean({{"beside", "0"}, {"bonded", "1"}});
+  for (const char* chamfer : {"0.5", "0.2"})
+    for (const char* size : {"10", "4"})
+      EXPECT_NEAR(lean({{"chamfer", chamfer}, {"size", size}}), contact, 0.03 * contact) << chamfer << " " << size;
+  for (const char* chamfer : {"0.5", "0.3"})
+    EXPECT_NEAR(lean({{"bonded", "1"},
+                      {"thickness", "0.1"},
+                      {"order", "2"},
+                      {"size", "20"},
+                      {"soft", "27e9"},
+                      {"chamfer", chamfer}}),
+                bonded, 0.1 * bonded)
+        << chamfer;
 }
 
 }  // namespace
