@@ -31,8 +31,9 @@ class Rings {
  private:
   struct Entry {
     int interface;
-    std::vector<Polygon> polygons;  // what the sides have in common
-    double tolerance;               // m, a share of the shortest edge
+    std::vector<Polygon> polygons;    // what the sides have in common
+    std::optional<PolygonGrid> grid;  // of these, if any
+    double tolerance;                 // m, a share of the shortest edge
     Vec3 low, high;
   };
 
