@@ -71,7 +71,7 @@ double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas)
   return port.area * sum / weights;
 }
 
-// Of a piece without a Schur complement: the diagonal that others of the like have, in the mean (manual, eq. K11).
+// Of a piece without a Schur complement: the diagonal that others of the like have, in the mean (manual, eq. K13).
 double from_area(const StepModel& model, const Port& port, double modulus) {
   const Damping& damping = model.cut->piece(port.piece).body->material.damping;
   return 1.5 * model.scheme.c1(damping) * modulus * std::sqrt(port.area);
