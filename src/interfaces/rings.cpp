@@ -58,13 +58,24 @@ bool reaches_with(const Place& one, const Place& other, const std::vector<std::p
   });
 }
 
+bool are_alike(const std::string& word_a, const std::vector<LawParameter>& a, const std::string& word_b,
+               const std::vector<LawParameter>& b) {
+  return word_a == word_b &&
+         std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const LawParameter& p, const LawParameter& q) { return p.value == q.value; });
+}
+
 }  // namespace
 
-bool is_alike(const Law& a, const Law& b) {
-  const std::vector<LawParameter> of_a = a.parameters(), of_b = b.parameters();
-  return a.word() == b.word() &&
-         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                    [](const LawParameter& p, const LawParameter& q) { return p.value == q.value; });
+bool is_alike(const Law& a, const Law& b) { return are_alike(a.word(), a.parameters(), b.word(), b.parameters()); }
+
+bool press_alike(const Law& a, const Law& b) {
+  const auto of_pressure = [](const Law& law) {
+    std::vector<LawParameter> parameters = law.parameters();
+    std::erase_if(parameters, [](const LawParameter& p) { return p.name == "friction"; });
+    return parameters;
+  };
+  return a.acts_on(1, false) == b.acts_on(1, false) && are_alike(a.word(), of_pressure(a), b.word(), of_pressure(b));
 }
 
 bool has_load(const Problem& problem, const Interface* interface) {
@@ -235,7 +246,8 @@ bool Rings::are_contacts_of_one_kind(int i, int j) const {
            !has_load(problem_, &own);
   };
   return !matching_.contains(j) && can_share(i) && can_share(j) &&
-         is_alike(*problem_.interfaces[static_cast<size_t>(i)]->law, *problem_.interfaces[static_cast<size_t>(j)]->law);
+         press_alike(*problem_.interfaces[static_cast<size_t>(i)]->law,
+                     *problem_.interfaces[static_cast<size_t>(j)]->law);
 }
 
 bool Rings::has(const Entry& entry, const Vec3& x, double tolerance) {

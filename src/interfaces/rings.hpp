@@ -14,6 +14,8 @@ namespace dygita {
 
 // Do both answer alike, whatever is asked?
 bool is_alike(const Law& a, const Law& b);
+// The same of pressure: where both have friction, it may be another.
+bool press_alike(const Law& a, const Law& b);
 
 // Does some load act on it? It is then a law of its own, never part of a group nor one with its neighbours.
 bool has_load(const Problem& problem, const Interface* interface);
@@ -24,8 +26,8 @@ class Rings {
   Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings, double within);
 
   // At x, are both sides of an interface joined by ties that hold in all steps and come before it? Contact, which may
-  // open, leaves a point to ties, never a tie to it; and to ties with one contact of its like, of stiffer bodies or
-  // larger, which opens and slides as it would. Empty: nowhere.
+  // open, leaves a point to ties, never a tie to it; and to ties with one contact that presses as it does, of stiffer
+  // bodies or larger, which opens as it would. Empty: nowhere.
   std::function<bool(const Vec3&)> closed_by(int i) const;
 
  private:
