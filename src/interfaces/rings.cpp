@@ -129,13 +129,17 @@ void Rings::add(int i, const PlacedFace& own, const PlacedFace* covering) {
   const double edge = face.smallest_edge();
   const double tolerance = std::min(std::max(near * edge, sagitta_margin * face.sagitta()), nearest * edge);
   near_[static_cast<size_t>(i)] = std::min(near_[static_cast<size_t>(i)], tolerance);
-  Entry entry{i, covering ? covered(face, *covering) : std::vector<Polygon>(), {}, tolerance, {}, {}};
+  std::vector<Polygon> whole;
   double area = 0.0;
   for (const FaceInSpace::Part& part : face.parts) {
-    if (!covering) entry.polygons.push_back(part.x);
+    whole.push_back(part.x);
     area += part.area;
   }
-  if (!entry.polygons.empty()) entry.grid.emplace(entry.polygons, mean_diameter(entry.polygons), tolerance);
+  std::vector<Polygon> polygons = covering ? covered(face, *covering) : whole;
+  if (polygons.empty()) polygons = whole;  // it is declared to meet from further away
+  Entry entry{i, std::move(polygons), {}, tolerance, {}, {}};
+  // Slivers of what is covered are far smaller than the facets.
+  entry.grid.emplace(entry.polygons, mean_diameter(whole), tolerance);
   entry.low = face.x.rowwise().minCoeff();
   entry.high = face.x.rowwise().maxCoeff();
   entries_.push_back(std::move(entry));
@@ -254,9 +258,7 @@ bool Rings::has(const Entry& entry, const Vec3& x, double tolerance) {
   if ((x - entry.low).minCoeff() < -tolerance || (entry.high - x).minCoeff() < -tolerance) return false;
   bool is_on = false;
   const Polygon at = x;
-  if (entry.grid)
-    entry.grid->for_each_near(at,
-                              [&](int i) { is_on |= lies_on(x, entry.polygons[static_cast<size_t>(i)], tolerance); });
+  entry.grid->for_each_near(at, [&](int i) { is_on |= lies_on(x, entry.polygons[static_cast<size_t>(i)], tolerance); });
   return is_on;
 }
 

@@ -34,7 +34,7 @@ class Rings {
   struct Entry {
     int interface;
     std::vector<Polygon> polygons;    // what the sides have in common
-    std::optional<PolygonGrid> grid;  // of these, if any
+    std::optional<PolygonGrid> grid;  // of these
     double tolerance;                 // m, a share of the shortest edge
     Vec3 low, high;
   };
