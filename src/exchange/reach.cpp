@@ -24,7 +24,7 @@ void Reach::for_each_copy(int part, int node, Visit&& visit) const {
   for (const Copy& copy : cut_->on_cuts(part).others_of(node)) visit(NodeKey{copy.piece, copy.node});
 }
 
-// visit(key, hangs): a node that the point acts on, and whether what else acts on it depends on the point. Where faces
+// visit(key, follows): a node that the point acts on, and whether what else acts on it depends on the point. Where faces
 // match, groups and laws meet at nodes; where they do not, points share nodes: those of explicit pieces are solved
 // together, the others each for itself.
 template <class Visit>
@@ -54,13 +54,13 @@ bool Reach::grow(const Surface& surface, int s, const std::vector<char>& explici
   for (int i = 0; i < surface.n_points(); ++i) {
     if (taken[static_cast<size_t>(i)]) continue;
     bool is_touched = is_everywhere(s);
-    for_each_key(surface, i, explicit_pieces, [&](const NodeKey& key, bool hangs) {
-      is_touched = is_touched || cut_->is_here(key.first) || (hangs && has(key));
+    for_each_key(surface, i, explicit_pieces, [&](const NodeKey& key, bool follows) {
+      is_touched = is_touched || cut_->is_here(key.first) || (follows && has(key));
     });
     if (!is_touched) continue;
     taken[static_cast<size_t>(i)] = 1;
     for_each_key(surface, i, explicit_pieces,
-                 [&](const NodeKey& key, bool hangs) { grows = (hangs && take(key)) || grows; });
+                 [&](const NodeKey& key, bool follows) { grows = (follows && take(key)) || grows; });
   }
   return grows;
 }

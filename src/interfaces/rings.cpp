@@ -7,6 +7,7 @@
 
 #include "law/law.hpp"
 #include "meeting/sagitta.hpp"
+#include "meeting/segments.hpp"
 #include "model/load.hpp"
 
 namespace dygita {
@@ -58,6 +59,25 @@ bool reaches_with(const Place& one, const Place& other, const std::vector<std::p
   });
 }
 
+// What the other face covers of the parts of a face.
+std::vector<Polygon> covered(const FaceInSpace& face, const PlacedFace& covering, double reach) {
+  const FaceInSpace other(covering);
+  const SegmentFinder finder(face, other, reach);
+  constexpr double nothing = 1e-9;
+  std::vector<Polygon> polygons;
+  for (size_t p = 0; p < face.parts.size(); ++p) {
+    const auto axes = SegmentFinder::axes(face.parts[p]);
+    for (const Segment& segment : finder.segments(static_cast<int>(p)))
+      for (size_t a = 1; a + 1 < segment.region.size(); ++a) {
+        Polygon triangle(3, 3);
+        triangle << axes * segment.region[0], axes * segment.region[a], axes * segment.region[a + 1];
+        if (area_vector(triangle).norm() > nothing * face.parts[p].area)
+          polygons.emplace_back(triangle.colwise() + face.parts[p].centre);
+      }
+  }
+  return polygons;
+}
+
 bool are_alike(const std::string& word_a, const std::vector<LawParameter>& a, const std::string& word_b,
                const std::vector<LawParameter>& b) {
   return word_a == word_b &&
@@ -86,9 +106,8 @@ bool has_load(const Problem& problem, const Interface* interface) {
   return false;
 }
 
-Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings, double within)
+Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings)
     : problem_(problem),
-      within_(within),
       areas_(problem.interfaces.size()),
       moduli_(problem.interfaces.size()),
       near_(problem.interfaces.size(), std::numeric_limits<double>::infinity()) {
@@ -103,8 +122,9 @@ Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& 
     one.facets = meetings[i]->facets_1();
     other.facets = meetings[i]->facets_2();
     const bool is_whole = meetings[i]->matches() || interface.cyclic;
-    add(static_cast<int>(i), one, is_whole ? nullptr : &other);
-    if (!interface.cyclic) add(static_cast<int>(i), other, is_whole ? nullptr : &one);
+    const double reach = meetings[i]->reach();
+    add(static_cast<int>(i), one, is_whole ? nullptr : &other, reach);
+    if (!interface.cyclic) add(static_cast<int>(i), other, is_whole ? nullptr : &one, reach);
   }
 }
 
@@ -123,7 +143,7 @@ std::function<bool(const Vec3&)> Rings::closed_by(int i) const {
 
 // Three faces that meet in a circle have each their own polygon of it: chords of an eighth part of it are a tenth of
 // their length off, and facets of round faces their sagitta.
-void Rings::add(int i, const PlacedFace& own, const PlacedFace* covering) {
+void Rings::add(int i, const PlacedFace& own, const PlacedFace* covering, double reach) {
   constexpr double near = 0.1, nearest = 0.5;  // of the shortest edge
   const FaceInSpace face(own);
   const double edge = face.smallest_edge();
@@ -135,34 +155,13 @@ void Rings::add(int i, const PlacedFace& own, const PlacedFace* covering) {
     whole.push_back(part.x);
     area += part.area;
   }
-  std::vector<Polygon> polygons = covering ? covered(face, *covering) : whole;
-  if (polygons.empty()) polygons = whole;  // it is declared to meet from further away
-  Entry entry{i, std::move(polygons), {}, tolerance, {}, {}};
+  std::vector<Polygon> polygons = covering ? covered(face, *covering, reach) : whole;
   // Slivers of what is covered are far smaller than the facets.
-  entry.grid.emplace(entry.polygons, mean_diameter(whole), tolerance);
-  entry.low = face.x.rowwise().minCoeff();
-  entry.high = face.x.rowwise().maxCoeff();
+  PolygonGrid grid(polygons, mean_diameter(whole), tolerance);
+  Entry entry{i,         std::move(polygons),         std::move(grid),
+              tolerance, face.x.rowwise().minCoeff(), face.x.rowwise().maxCoeff()};
   entries_.push_back(std::move(entry));
   areas_[static_cast<size_t>(i)] = std::max(areas_[static_cast<size_t>(i)], area);
-}
-
-// What the other face covers of the parts of a face.
-std::vector<Polygon> Rings::covered(const FaceInSpace& face, const PlacedFace& covering) const {
-  const FaceInSpace other(covering);
-  const SegmentFinder finder(face, other, within_ + sagitta_margin * (face.sagitta() + other.sagitta()));
-  constexpr double nothing = 1e-9;
-  std::vector<Polygon> polygons;
-  for (size_t p = 0; p < face.parts.size(); ++p) {
-    const auto axes = SegmentFinder::axes(face.parts[p]);
-    for (const Segment& segment : finder.segments(static_cast<int>(p)))
-      for (size_t a = 1; a + 1 < segment.region.size(); ++a) {
-        Polygon triangle(3, 3);
-        triangle << axes * segment.region[0], axes * segment.region[a], axes * segment.region[a + 1];
-        if (area_vector(triangle).norm() > nothing * face.parts[p].area)
-          polygons.emplace_back(triangle.colwise() + face.parts[p].centre);
-      }
-  }
-  return polygons;
 }
 
 bool Rings::are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const {
@@ -258,7 +257,7 @@ bool Rings::has(const Entry& entry, const Vec3& x, double tolerance) {
   if ((x - entry.low).minCoeff() < -tolerance || (entry.high - x).minCoeff() < -tolerance) return false;
   bool is_on = false;
   const Polygon at = x;
-  entry.grid->for_each_near(at, [&](int i) { is_on |= lies_on(x, entry.polygons[static_cast<size_t>(i)], tolerance); });
+  entry.grid.for_each_near(at, [&](int i) { is_on |= lies_on(x, entry.polygons[static_cast<size_t>(i)], tolerance); });
   return is_on;
 }
 

@@ -6,7 +6,6 @@
 #include <set>
 #include <vector>
 
-#include "meeting/segments.hpp"
 #include "mesh/polygons.hpp"
 #include "model/meeting.hpp"
 
@@ -22,8 +21,7 @@ bool has_load(const Problem& problem, const Interface* interface);
 
 class Rings {
  public:
-  // within: how far apart faces may be that touch, beside their sagittas, m.
-  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings, double within);
+  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings);
 
   // At x, are both sides of an interface joined by ties that hold in all steps and come before it? Contact, which may
   // open, leaves a point to ties, never a tie to it; and to ties with one contact that presses as it does, of stiffer
@@ -33,15 +31,15 @@ class Rings {
  private:
   struct Entry {
     int interface;
-    std::vector<Polygon> polygons;    // what the sides have in common
-    std::optional<PolygonGrid> grid;  // of these
-    double tolerance;                 // m, a share of the shortest edge
+    std::vector<Polygon> polygons;  // what the sides have in common
+    PolygonGrid grid;               // of these
+    double tolerance;               // m, a share of the shortest edge
     Vec3 low, high;
   };
 
   // A side of an interface; null: the other one covers all of it.
-  void add(int i, const PlacedFace& own, const PlacedFace* covering);
-  std::vector<Polygon> covered(const FaceInSpace& face, const PlacedFace& covering) const;
+  // reach: how far apart both may be, m.
+  void add(int i, const PlacedFace& own, const PlacedFace* covering, double reach);
   bool are_joined_around(int i, const CyclicSymmetry& cyclic, const Vec3& x) const;
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const;
   bool is_asked(int i, int j) const;  // may what i joins take a point off j?
@@ -56,7 +54,6 @@ class Rings {
   static bool has(const Entry& entry, const Vec3& x, double tolerance);
 
   const Problem& problem_;
-  double within_;
   std::vector<Entry> entries_;  // side after side of the interfaces, in their order
   std::set<int> holding_;       // ties in all steps
   std::set<int> matching_;      // node for node

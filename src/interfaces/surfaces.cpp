@@ -219,7 +219,7 @@ std::vector<Surface> make_surfaces(const Problem& problem, bool has_checked_part
       task.done("'" + problem.interfaces[i]->name + "'");
     });
   }
-  const Rings rings(problem, meetings, within);
+  const Rings rings(problem, meetings);
   std::vector<Facing> facings(static_cast<size_t>(n));
   parallel_for(n, [&](int i) { facings[i] = facing_of(problem, i, meetings, rings); });
   for (size_t i = 0; i < problem.interfaces.size(); ++i) {

@@ -20,6 +20,7 @@ class Mortar {
   Mortar(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options);
 
   bool is_empty() const { return covered_ == 0.0; }
+  double reach() const { return reach_; }        // m, how far apart the faces may be
   bool is_second() const { return is_second_; }  // does the second side carry the points?
   // Facets of each side that take part, with the meshes' node numbers.
   const std::vector<Facet>& facets_1() const { return is_second_ ? of_other_ : of_carrier_; }
@@ -60,6 +61,7 @@ class Meeting {
   Meeting(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options);
 
   bool matches() const { return !mortar_; }
+  double reach() const { return mortar_ ? mortar_->reach() : 0.0; }  // as a mortar's
   const std::vector<Facet>& facets_1() const { return mortar_ ? mortar_->facets_1() : matched_->facets_1; }
   const std::vector<Facet>& facets_2() const { return mortar_ ? mortar_->facets_2() : matched_->facets_2; }
   Facing facing(const std::function<bool(const Vec3&)>& is_taken_away) const;
