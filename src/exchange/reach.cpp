@@ -24,9 +24,9 @@ void Reach::for_each_copy(int part, int node, Visit&& visit) const {
   for (const Copy& copy : cut_->on_cuts(part).others_of(node)) visit(NodeKey{copy.piece, copy.node});
 }
 
-// visit(key, follows): a node that the point acts on, and whether what else acts on it depends on the point. Where faces
-// match, groups and laws meet at nodes; where they do not, points share nodes: those of explicit pieces are solved
-// together, the others each for itself.
+// visit(key, follows): a node that the point acts on, and whether what else acts on it depends on the point. Where
+// faces match, groups and laws meet at nodes; where they do not, points share nodes: those of explicit pieces are
+// solved together, the others each for itself.
 template <class Visit>
 void Reach::for_each_key(const Surface& surface, int point, const std::vector<char>& explicit_pieces,
                          Visit&& visit) const {
