@@ -6,18 +6,15 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "model/extent.hpp"
 #include "partition/all_pieces.hpp"
 
 namespace dygita {
 
 bool needs_coarse_correction(const StepModel& model) {
   if (model.scheme.is_static) return true;
-  for (const CutPiece& piece : model.cut->pieces()) {
-    const Substructure& part = *piece.body;
-    const Vec3 size = part.mesh->nodes.rowwise().maxCoeff() - part.mesh->nodes.rowwise().minCoeff();
-    if (part.material.p_wave_speed() * model.scheme.dt > 0.3 * std::cbrt(size.prod())) return true;
-  }
-  return false;
+  return std::any_of(model.cut->pieces().begin(), model.cut->pieces().end(),
+                     [&](const CutPiece& piece) { return crossings(*piece.body, model.scheme.dt) > 0.3; });
 }
 
 // Sides of points with several ports; those that a support holds move with it and have no coarse motion.

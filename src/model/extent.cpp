@@ -1,5 +1,7 @@
 #include "model/extent.hpp"
 
+#include <cmath>
+
 namespace dygita {
 
 Box extent_of(const Substructure& part) {
@@ -17,6 +19,10 @@ Box extent_of(const std::vector<SubstructurePtr>& parts) {
     box.add(own.high);
   }
   return box;
+}
+
+double crossings(const Substructure& part, double dt) {
+  return part.material.p_wave_speed() * dt / std::cbrt(extent_of(part).size().prod());
 }
 
 }  // namespace dygita

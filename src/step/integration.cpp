@@ -10,13 +10,13 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
-#include "law/law.hpp"
 #include "model/model.hpp"
 #include "partition/all_pieces.hpp"
 #include "partition/mass_choice.hpp"
 #include "partition/stored_precision.hpp"
 #include "pieces/longest_step.hpp"
 #include "step/alike_parts.hpp"
+#include "step/expected_iterations.hpp"
 #include "step/step_needs.hpp"
 
 namespace dygita {
@@ -31,7 +31,7 @@ constexpr double safety = 0.98;
 constexpr double explicit_unknown = 95.0, explicit_pair = 40.0, tuned_unknown = 80.0, damped_unknown = 60.0,
                  branch_unknown = 45.0, explicit_point = 1100.0, fill = 1.4;
 constexpr double spread_point = 10000.0;  // between meshes that do not match: some eight rounds
-constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 7.0;
+constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0;
 constexpr double rest_of_iteration = 1000.0, factorising = 16.0, condensing = 0.5;
 
 struct Size {
@@ -65,7 +65,8 @@ double of_solves(const Size& size, bool is_single) {
 // discretised in which way is no matter of how it is solved.
 double implicit_cost(const Size& size, int n_increments) {
   const bool is_single = stored_precision(LatinSettings(), size.unknowns) == Precision::single_precision;
-  return of_solves(size, is_single) + iterations * of_iteration(size, is_single) + of_factor(size) / n_increments;
+  return of_solves(size, is_single) + iterations_of_shocks * of_iteration(size, is_single) +
+         of_factor(size) / n_increments;
 }
 
 std::vector<double> pairs_of_neighbours(const Cut& cut, const std::vector<Body>& bodies) {
@@ -366,21 +367,13 @@ StepCost predict_cost(const Problem& problem, const Step& step, const std::vecto
   const double share = step.is_static ? 1.0 : whole_increment;
   cost.once.bytes += n * share * (an_increment + an_explicit_one);
   cost.a_round.bytes = share * an_iteration;
-  const bool turns = may_turn(problem, step, surfaces);
-  constexpr double few_static = 20.0, many_static = 40.0, many_with_contact = 160.0, many_of_shocks = 15.0;
-  cost.fewest = n * (step.is_static ? few_static : iterations);
-  cost.most = n * (step.is_static ? (turns ? many_with_contact : many_static) : turns ? many_of_shocks : iterations);
+  const auto [fewest, most] = expected_iterations(problem, step, surfaces, integration);
+  cost.fewest = n * fewest;
+  cost.most = n * most;
   if (an_iteration > 0.0)
-    cost.rounds = cost.fewest < cost.most
-                      ? fmt::format("{:.0f} to {:.0f} iterations an increment", cost.fewest / n, cost.most / n)
-                      : fmt::format("{:.0f} iterations an increment", cost.fewest / n);
+    cost.rounds = fewest < most ? fmt::format("{:.0f} to {:.0f} iterations an increment", fewest, most)
+                                : fmt::format("{:.0f} iterations an increment", fewest);
   return cost;
-}
-
-bool may_turn(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
-  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
-    return takes_part(problem, step, surface) && surface.declared_law().shown().states;
-  });
 }
 
 }  // namespace dygita
