@@ -90,6 +90,8 @@ void GmshSession::run(const std::function<void()>& work) const {
   }
   std::vector<std::string> lines;
   gmsh::logger::get(lines);
+  gmsh::logger::stop();  // which forgets them: errors are those of one run
+  gmsh::logger::start();
   for (const std::string& line : lines) {
     if (line.starts_with("Error: ")) errors.push_back(line.substr(7));
     // Of curved cells: what is straightened is told by its own name (straighten.hpp).

@@ -50,7 +50,11 @@ std::vector<Swept> sweep_solids(const StepOptions& options, const Unswept& unswe
                       options.file, solid.part.name));
     }
   }
-  if (!all.empty()) gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // quadrilaterals alone
+  if (all.empty()) return all;
+  gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // quadrilaterals alone
+  std::vector<int> tags;
+  for (const Swept& one : all) tags.push_back(solids[one.solid].tag);
+  leave_others_unswept(tags);
   return all;
 }
 

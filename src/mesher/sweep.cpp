@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "mesher/gmsh_session.hpp"
 #include "numerics/types.hpp"
@@ -113,6 +114,26 @@ std::optional<SweptSolid> sweep_solid(int solid, const std::vector<int>& surface
     }
   }
   return std::nullopt;
+}
+
+void leave_others_unswept(const std::vector<int>& solids) {
+  std::set<std::pair<int, int>> swept;
+  for (const int solid : solids) {
+    const std::pair<int, int> whole{3, solid};
+    swept.insert(whole);
+    for (int dimension = 2; dimension > 0; --dimension) {
+      GmshEntities of, boundary;
+      for (const auto& entity : swept)
+        if (entity.first == dimension + 1) of.push_back(entity);
+      gmsh::model::getBoundary(of, boundary, false, false);
+      swept.insert(boundary.begin(), boundary.end());
+    }
+  }
+  GmshEntities all, others;
+  gmsh::model::getEntities(all);
+  for (const auto& entity : all)
+    if (entity.first > 0 && !swept.contains(entity)) others.push_back(entity);
+  if (!others.empty()) gmsh::model::mesh::removeConstraints(others);  // of none it means all
 }
 
 }  // namespace dygita

@@ -16,4 +16,8 @@ struct SweptSolid {
 // where it is no such solid: same volume, surface, centre and faces within 1e-6. Lengths are in the model's unit.
 std::optional<SweptSolid> sweep_solid(int solid, const std::vector<int>& surfaces, double size);
 
+// Of all other entities of the model, takes back what gmsh has them inherit: faces of other solids that lie on those of
+// a swept one it takes for the same, and would mesh them by extrusion, too. solids: the swept ones.
+void leave_others_unswept(const std::vector<int>& solids);
+
 }  // namespace dygita

@@ -146,6 +146,39 @@ TEST(StepAssembly, has_tetrahedra_where_hexahedra_fail_or_do_not_fill_the_solid)
   expect_input_error([&] { StepAssembly{options}; }, {"cannot have hexahedra of this size", "smaller size"});
 }
 
+// The plate's failure is the plate's alone.
+TEST(StepAssembly, has_hexahedra_beside_a_part_for_which_they_fail) {
+  StepOptions options;
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/tests/intake/ring_on_plate.step";
+  const std::string ring = StepAssembly(options).parts()[1].name;
+  options.sweep = StepOptions::Sweep::where_possible;
+  options.size = 8e-3;
+  options.sizes[ring] = 2e-3;
+  take_warnings();
+  const StepAssembly assembly(options);
+  EXPECT_EQ(take_warnings().size(), 1u);
+  EXPECT_EQ(assembly.parts()[0].mesh->blocks.at(0).type, CellType::tet4);
+  EXPECT_EQ(assembly.parts()[1].mesh->blocks.at(0).type, CellType::hex8);
+}
+
+// Faces of neighbours lie on those of the extruded parts: gmsh would extrude them, too, and give up.
+TEST(StepAssembly, has_hexahedra_in_all_extruded_parts_of_a_unit_whose_parts_touch) {
+  StepOptions options;
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/meshes/instrument_unit.step";
+  options.sweep = StepOptions::Sweep::where_possible;
+  options.size = 12e-3;
+  options.sizes = {{"PANEL", 18e-3}, {"STANDOFF*", 6e-3}, {"SCREW*", 4e-3}, {"INSERT*", 8e-3}, {"BOARD*", 10e-3}};
+  options.cells_a_turn = 6;
+  take_warnings();
+  const StepAssembly assembly(options);
+  for (const std::string& warning : take_warnings())
+    EXPECT_EQ(warning.find("has tetrahedra"), std::string::npos) << warning;
+  std::set<std::string> of_tetrahedra;
+  for (const auto& part : assembly.parts())
+    if (part.mesh->blocks.at(0).type == CellType::tet4) of_tetrahedra.insert(part.name.substr(0, part.name.find(' ')));
+  EXPECT_EQ(of_tetrahedra, (std::set<std::string>{"pedestal", "housing", "screw"}));
+}
+
 // Surfaces keep their order: surface7 is the same face, whatever the cells.
 TEST(StepAssembly, has_hexahedra_where_solids_are_a_face_moved_along_its_normal) {
   StepOptions options = joint();
