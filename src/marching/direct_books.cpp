@@ -26,9 +26,8 @@ void DirectPoints::find_released() {
     if (is_direct[s] > 0.0 && (*model_->surfaces)[s].interface) released_.push_back(static_cast<int>(s));
 }
 
-void DirectPoints::begin_interval(int increment, double energy) {
+void DirectPoints::begin_interval(int increment) {
   interval_ = 0.0;
-  floor_ = std::max(floor_, 1e-12 * energy / increment_.dt);  // as of the indicator
   i_interval_ = increment;
 }
 

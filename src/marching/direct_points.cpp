@@ -236,9 +236,7 @@ void DirectPoints::start_from_last(OwnPoint& p) {
 }
 
 // Rounding of what would stop the nodes, or bring them back to where the step began, in one increment: where all move
-// alike forces are nothing but that, and change by their own size in each round. Before a wave
-// arrives, a body moves by what S17 spreads over it, in which contact opens and closes at random: forces far below the
-// floor of the indicator count for nothing either.
+// alike forces are nothing but that, and change by their own size in each round.
 double DirectPoints::least_force(const std::vector<int>& members) const {
   constexpr double share = 1e-4;  // of which `close_enough_` is some fifty times rounding
   double least = 0.0;
@@ -248,8 +246,7 @@ double DirectPoints::least_force(const std::vector<int>& members) const {
       const OwnPort& port = ports_[j];
       const double v = velocity(p, port).norm() + start_displacement(p, port).norm() / increment_.dt;
       for (int d = 0; d < 3; ++d)
-        if (port.inverse[d] > 0.0)
-          least = std::max({least, share * v / port.inverse[d], std::sqrt(floor_ / port.inverse[d])});
+        if (port.inverse[d] > 0.0) least = std::max(least, share * v / port.inverse[d]);
     }
   }
   return least;

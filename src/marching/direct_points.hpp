@@ -18,9 +18,8 @@ class DirectPoints {
   // Takes the laws' memory from `start`.
   DirectPoints(const StepModel& model, const State& start);
 
-  // A time step of the deck begins: what has let go by its middle has let go for all of it. energy: held, and of loads
-  // so far, J.
-  void begin_interval(int increment, double energy);
+  // A time step of the deck begins: what has let go by its middle has let go for all of it.
+  void begin_interval(int increment);
   // Pieces whose nodes other ranks solve points at: once these have begun the increment, `tell` sends their motions.
   const std::vector<int>& border_pieces() const { return border_pieces_; }
   void tell();
@@ -137,7 +136,6 @@ class DirectPoints {
   const StepModel* model_;
   Increment increment_;
   double close_enough_;  // of the largest force, between rounds over points that share nodes
-  double floor_ = 0.0;   // W, of motions beside which smaller ones count for nothing
   // Nodes that several ranks solve points at, told by those who have them.
   std::vector<Motions> motions_;
   ranks::Neighbours of_motions_;

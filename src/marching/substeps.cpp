@@ -226,8 +226,7 @@ void Substeps::solve(int increment, int /*last*/) {
     step_.loops.for_each([&](Piece& piece, int) {
       if (piece.is_explicit() || step_.model.n_substeps() > 1) piece.begin_interval();
     });
-  const Energies& energies = step_.files.state.energies;
-  direct_.begin_interval(increment, energies.held() + std::abs(energies.loads));
+  direct_.begin_interval(increment);
   step_.energy.assign(step_.model.pieces.size(), {});
   step_.of_points.assign(step_.model.pieces.size(), {});
   const int n = step_.model.n_substeps();

@@ -45,20 +45,6 @@ struct NodeEdgeView {
   int n_nodes;
 };
 
-// What rounding the blocks of a matrix by edges does to rigid motions, of each node three numbers each: its arm from
-// the middle, the forces of turns by one about the three axes, and the vector whose cross product is the skew part of
-// the diagonal block; after the last node one more, which is read and not used.
-struct RigidView {
-  const float* nodes;
-  int n_nodes;
-};
-
-// Of a product, four numbers each: the mean and the turn of x, and what is to be taken off y at every node and by its
-// arm.
-struct RigidTerms {
-  double middle[4], turn[4], push[4], pull[4];
-};
-
 // Velocities and displacements of nodes in an increment, four numbers each: V = keep V - (pull + C x) / D, U += dt V.
 struct NodeMotion {
   double keep, dt;
@@ -85,10 +71,6 @@ struct PanelKernels {
   void (*multiply_single_sixteen)(const panel::View&, const float* x, float* below, double* y);
   // y += K x, four numbers a node, of which the last of x is zero and of y is left alone
   void (*add_edge_product)(const EdgeView&, const double* x, double* y);
-  // sums: over the nodes, of d = x - (x of the first node), arm x d, forces . d and skew x d; twelve
-  void (*sum_rigid)(const RigidView&, const double* x, double* sums);
-  // y -= forces turn + skew x (x - middle) + push + pull x arm
-  void (*subtract_rigid)(const RigidView&, const RigidTerms&, const double* x, double* y);
   // y += C x, of a matrix of one number an edge
   void (*add_scalar_edge_product)(const NodeEdgeView&, const double* x, double* y);
   // the same with nodes that move by it, in one pass; product: C x

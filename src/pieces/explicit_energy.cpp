@@ -331,7 +331,7 @@ double explicit_bytes(const PieceSetup& setup, bool shares) {
   const double n = setup.n_nodes(), pairs = setup.body->matrices->n_pairs();
   const bool is_tuned = setup.tuned_speed > 0.0;
   return 8.0 * (is_tuned ? 45.0 : 29.0) * n +
-         (shares ? 0.0 : 64.0 * n + 40.0 * pairs + (is_tuned ? MassEdges::bytes_of(n) : 0.0));
+         (shares ? 0.0 : 4.0 * n + 40.0 * pairs + (is_tuned ? MassEdges::bytes_of(n) : 0.0));
 }
 
 PieceFigures CentralDifferences::figures() const {

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "base/error.hpp"
-
 namespace dygita {
 
 namespace {
@@ -49,7 +47,7 @@ StoredMatrices::StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps
     last_ = held_ = taken(std::move(matrices.stiffness));
     return;
   }
-  last_edges_ = held_edges_ = std::make_shared<const EdgeBlocks>(matrices.stiffness, mesh_->nodes);
+  last_edges_ = held_edges_ = std::make_shared<const EdgeBlocks>(matrices.stiffness);
   if (!memory) return;
   memory->swap(matrices.stiffness);
   spares->give(std::move(memory));
@@ -71,11 +69,10 @@ StiffnessPtr StoredMatrices::stiffness() const {
 
 std::shared_ptr<const EdgeBlocks> StoredMatrices::edges() const {
   if (const std::lock_guard<std::mutex> lock(mutex_); const auto edges = last_edges_.lock()) return edges;
-  CHECK(mesh_, "edges of a body without a mesh");
   const StiffnessPtr stiffness = this->stiffness();
   const std::lock_guard<std::mutex> lock(mutex_);
   std::shared_ptr<const EdgeBlocks> edges = last_edges_.lock();
-  if (!edges) edges = std::make_shared<const EdgeBlocks>(*stiffness, mesh_->nodes);
+  if (!edges) edges = std::make_shared<const EdgeBlocks>(*stiffness);
   last_edges_ = edges;
   held_edges_ = edges;
   return edges;

@@ -20,9 +20,8 @@ class Edges : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(Edges, multiply_as_the_matrix_does_within_what_single_precision_stores) {
-  const Mesh mesh = distorted_mixed_box();
-  const BodyMatrices body = assemble(mesh, material_of(2.1e11, 0.3, 7800.0));
-  const EdgeBlocks edges(body.stiffness, mesh.nodes);
+  const BodyMatrices body = assemble(distorted_mixed_box(), material_of(2.1e11, 0.3, 7800.0));
+  const EdgeBlocks edges(body.stiffness);
   const int n = edges.n_nodes();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -106,9 +105,8 @@ TEST_P(Edges, of_masses_are_what_consistent_mass_takes_along_the_edges_of_hexahe
 }
 
 TEST_P(Edges, leave_a_translation_without_force_and_the_whole_without_a_resultant) {
-  const Mesh mesh = distorted_mixed_box();
-  const BodyMatrices body = assemble(mesh, material_of(2.1e11, 0.3, 7800.0));
-  const EdgeBlocks edges(body.stiffness, mesh.nodes);
+  const BodyMatrices body = assemble(distorted_mixed_box(), material_of(2.1e11, 0.3, 7800.0));
+  const EdgeBlocks edges(body.stiffness);
   const int n = edges.n_nodes();
   std::vector<double> x(4 * n, 0.0), y(4 * n, 0.0);
   for (int i = 0; i < n; ++i)
@@ -123,45 +121,6 @@ TEST_P(Edges, leave_a_translation_without_force_and_the_whole_without_a_resultan
     size += std::abs(y[4 * i]);
   }
   EXPECT_LT(std::abs(sum), 1e-14 * size);
-}
-
-// Blocks are rounded: by them alone a turn has forces, and what is strained a resultant, a moment and a loss.
-TEST_P(Edges, are_symmetric_and_without_force_in_rigid_motions_however_the_blocks_are_rounded) {
-  const Mesh mesh = distorted_mixed_box();
-  const BodyMatrices body = assemble(mesh, material_of(2.1e11, 0.3, 7800.0));
-  const EdgeBlocks edges(body.stiffness, mesh.nodes);
-  const int n = edges.n_nodes();
-  const double length = mesh.nodes.cwiseAbs().maxCoeff(), size = body.stiffness.diagonal().maxCoeff();
-  const auto force_of = [&](const Points& u, auto product) {
-    Eigen::Matrix4Xd x = Eigen::Matrix4Xd::Zero(4, n), y = x;
-    x.topRows<3>() = u;
-    (edges.*product)(x.data(), y.data());
-    return Points(y.topRows<3>());
-  };
-  const auto rounded = &EdgeBlocks::add_product_of_blocks, exact = &EdgeBlocks::add_product;
-  const auto largest = [](const Points& force) { return force.cwiseAbs().maxCoeff(); };
-  Points turned(3, n);
-  for (const Vec3& turn : {Vec3(1.0, 0.0, 0.0), Vec3(-0.3, 0.7, 0.4)}) {
-    for (int i = 0; i < n; ++i) turned.col(i) = turn.cross(mesh.nodes.col(i)) + length * Vec3(0.3, -2.0, 5.0);
-    EXPECT_GT(largest(force_of(turned, rounded)), 1e-9 * size * length);
-    EXPECT_LT(largest(force_of(turned, exact)), 3e-15 * size * length);
-  }
-  std::srand(5);
-  const Points one = Points::Random(3, n), other = Points::Random(3, n);
-  const auto unsymmetry = [&](auto product) {
-    return std::abs(one.cwiseProduct(force_of(other, product)).sum() -
-                    other.cwiseProduct(force_of(one, product)).sum());
-  };
-  EXPECT_GT(unsymmetry(rounded), 1e-10 * size);
-  EXPECT_LT(unsymmetry(exact), 1e-13 * size);
-  const auto resultants = [&](auto product) {
-    const Points force = force_of(one, product);
-    Vec3 moment = Vec3::Zero();
-    for (int i = 0; i < n; ++i) moment += mesh.nodes.col(i).cross(force.col(i));
-    return std::max(force.rowwise().sum().cwiseAbs().maxCoeff(), moment.cwiseAbs().maxCoeff() / length);
-  };
-  EXPECT_GT(resultants(rounded), 1e-10 * size);
-  EXPECT_LT(resultants(exact), 1e-13 * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(Available, Edges, ::testing::ValuesIn(available_panel_kernels()),

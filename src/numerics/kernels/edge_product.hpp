@@ -9,8 +9,8 @@ namespace dygita::DYGITA_ISA {
 namespace {
 
 #if defined(__AVX2__) && defined(__FMA__)
-// Three numbers are read with the one after them, which meets a zero in the fourth place of what they multiply.
-inline __m256d load_four(const float* from) { return _mm256_cvtps_pd(_mm_loadu_ps(from)); }
+// A row of a block is read with the number after it, which meets the zero in the fourth place of the difference.
+inline __m256d load_row(const float* row) { return _mm256_cvtps_pd(_mm_loadu_ps(row)); }
 inline double sum_of_three(const __m256d& v) {
   const __m128d low = _mm256_castpd256_pd128(v);
   return _mm_cvtsd_f64(_mm_add_sd(_mm_add_sd(low, _mm_unpackhi_pd(low, low)), _mm256_extractf128_pd(v, 1)));
@@ -23,7 +23,7 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
     __m256d t0 = _mm256_setzero_pd(), t1 = t0, t2 = t0;
     for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e, k += 9) {
       const std::size_t b = 4 * (std::size_t)edges.others[e];
-      const __m256d r0 = load_four(k), r1 = load_four(k + 3), r2 = load_four(k + 6);
+      const __m256d r0 = load_row(k), r1 = load_row(k + 3), r2 = load_row(k + 6);
       const __m256d d = _mm256_sub_pd(_mm256_loadu_pd(x + b), xa);
       // One component in the first three places, zero in the fourth.
       const __m256d d0 = _mm256_permute4x64_pd(d, 0xc0), d1 = _mm256_permute4x64_pd(d, 0xd5),
@@ -41,53 +41,6 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
     own[0] += sum_of_three(t0);
     own[1] += sum_of_three(t1);
     own[2] += sum_of_three(t2);
-  }
-}
-
-inline __m256d next_axis(const __m256d& v) { return _mm256_permute4x64_pd(v, 0xc9); }  // y, z, x
-
-inline __m256d cross(const __m256d& a, const __m256d& b) {
-  return next_axis(_mm256_fmsub_pd(a, next_axis(b), _mm256_mul_pd(next_axis(a), b)));
-}
-
-void sum_rigid(const RigidView& body, const double* x, double* sums) {
-  const __m256d first = _mm256_loadu_pd(x), none = _mm256_setzero_pd();
-  __m256d all = none, arm_ahead = none, arm_back = none, skew_ahead = none, skew_back = none;
-  __m256d of[3] = {none, none, none};
-  for (int a = 0; a < body.n_nodes; ++a) {
-    const float* const node = body.nodes + 15 * (std::size_t)a;
-    const __m256d d = _mm256_sub_pd(_mm256_loadu_pd(x + 4 * (std::size_t)a), first), d_next = next_axis(d);
-    const __m256d arm = load_four(node), skew = load_four(node + 12);
-    all = _mm256_add_pd(all, d);
-    arm_ahead = _mm256_fmadd_pd(arm, d_next, arm_ahead);
-    arm_back = _mm256_fmadd_pd(next_axis(arm), d, arm_back);
-    skew_ahead = _mm256_fmadd_pd(skew, d_next, skew_ahead);
-    skew_back = _mm256_fmadd_pd(next_axis(skew), d, skew_back);
-    for (int k = 0; k < 3; ++k) of[k] = _mm256_fmadd_pd(load_four(node + 3 * (k + 1)), d, of[k]);
-  }
-  double four[4];
-  const auto put = [&](const __m256d& v, double* to) {
-    _mm256_storeu_pd(four, v);
-    for (int c = 0; c < 3; ++c) to[c] = four[c];
-  };
-  put(all, sums);
-  put(next_axis(_mm256_sub_pd(arm_ahead, arm_back)), sums + 3);
-  for (int k = 0; k < 3; ++k) sums[6 + k] = sum_of_three(of[k]);
-  put(next_axis(_mm256_sub_pd(skew_ahead, skew_back)), sums + 9);
-}
-
-void subtract_rigid(const RigidView& body, const RigidTerms& terms, const double* x, double* y) {
-  const __m256d middle = _mm256_loadu_pd(terms.middle), push = _mm256_loadu_pd(terms.push),
-                pull = _mm256_loadu_pd(terms.pull);
-  __m256d turn[3];
-  for (int k = 0; k < 3; ++k) turn[k] = _mm256_setr_pd(terms.turn[k], terms.turn[k], terms.turn[k], 0.0);
-  for (int a = 0; a < body.n_nodes; ++a) {
-    const float* const node = body.nodes + 15 * (std::size_t)a;
-    const std::size_t at = 4 * (std::size_t)a;
-    __m256d w = _mm256_add_pd(push, cross(pull, load_four(node)));
-    for (int k = 0; k < 3; ++k) w = _mm256_fmadd_pd(load_four(node + 3 * (k + 1)), turn[k], w);
-    w = _mm256_add_pd(w, cross(load_four(node + 12), _mm256_sub_pd(_mm256_loadu_pd(x + at), middle)));
-    _mm256_storeu_pd(y + at, _mm256_sub_pd(_mm256_loadu_pd(y + at), w));
   }
 }
 
@@ -141,40 +94,6 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
     own[0] += t0;
     own[1] += t1;
     own[2] += t2;
-  }
-}
-
-inline double cross_at(int c, const float* a, const double* b) {
-  const int next = (c + 1) % 3, last = (c + 2) % 3;
-  return a[next] * b[last] - a[last] * b[next];
-}
-
-void sum_rigid(const RigidView& body, const double* x, double* sums) {
-  for (int c = 0; c < 12; ++c) sums[c] = 0.0;
-  for (int a = 0; a < body.n_nodes; ++a) {
-    const float* const node = body.nodes + 15 * (std::size_t)a;
-    double d[3];
-    for (int c = 0; c < 3; ++c) d[c] = x[4 * (std::size_t)a + c] - x[c];
-    for (int c = 0; c < 3; ++c) {
-      sums[c] += d[c];
-      sums[3 + c] += cross_at(c, node, d);
-      for (int k = 0; k < 3; ++k) sums[6 + k] += node[3 * (k + 1) + c] * d[c];
-      sums[9 + c] += cross_at(c, node + 12, d);
-    }
-  }
-}
-
-void subtract_rigid(const RigidView& body, const RigidTerms& terms, const double* x, double* y) {
-  for (int a = 0; a < body.n_nodes; ++a) {
-    const float* const node = body.nodes + 15 * (std::size_t)a;
-    const std::size_t at = 4 * (std::size_t)a;
-    double d[3];
-    for (int c = 0; c < 3; ++c) d[c] = x[at + c] - terms.middle[c];
-    for (int c = 0; c < 3; ++c) {
-      double w = terms.push[c] - cross_at(c, node, terms.pull) + cross_at(c, node + 12, d);
-      for (int k = 0; k < 3; ++k) w += node[3 * (k + 1) + c] * terms.turn[k];
-      y[at + c] -= w;
-    }
   }
 }
 

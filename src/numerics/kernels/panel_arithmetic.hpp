@@ -63,8 +63,6 @@ const PanelKernels kernels{DYGITA_TEXT(DYGITA_ISA),
                            multiply_double_sixteen,
                            multiply_single_sixteen,
                            add_edge_product,
-                           sum_rigid,
-                           subtract_rigid,
                            add_scalar_edge_product,
                            move_nodes};
 
