@@ -4,7 +4,6 @@
 
 #include "law/law.hpp"
 #include "model/extent.hpp"
-#include "step/step_needs.hpp"
 
 namespace dygita {
 

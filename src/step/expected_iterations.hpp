@@ -15,4 +15,7 @@ struct ExpectedIterations {
 ExpectedIterations expected_iterations(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                                        const Integration& integration);
 
+// Does a law act in the step that may change from iteration to iteration?
+bool may_turn(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces);
+
 }  // namespace dygita

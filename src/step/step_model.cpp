@@ -14,6 +14,7 @@
 #include "law/law.hpp"
 #include "partition/all_pieces.hpp"
 #include "step/assembled_system.hpp"
+#include "step/expected_iterations.hpp"
 #include "step/shared_operators.hpp"
 #include "step/step_needs.hpp"
 

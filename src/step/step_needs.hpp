@@ -32,7 +32,4 @@ StepNeeds predict_needs(const Problem& problem, const Step& step, const std::vec
 StepCost predict_cost(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                       const std::vector<Body>& bodies, const Cut& cut, const Integration& integration);
 
-// Does a law act in the step that may change from iteration to iteration?
-bool may_turn(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces);
-
 }  // namespace dygita
