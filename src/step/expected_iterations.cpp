@@ -10,8 +10,8 @@ namespace dygita {
 namespace {
 
 // Of a dynamic increment with contact at most, by how often P waves cross an implicit part within it, in the mean:
-// a part that they cross often depends on its neighbours alone, and what these do passes on with each iteration. As on
-// the flanges, the box of electronics and a unit of 78 parts (manual, one solve per step).
+// a part that they cross often depends on its neighbours alone, and what these do passes on with each iteration.
+// Fitted to the flanges, the box of electronics and a unit of 78 parts.
 double most_of_shocks(const Problem& problem, const Step& step, const Integration& integration) {
   constexpr double usual = 15.0, a_crossing = 12.0, limit = 200.0;
   double sum = 0.0;

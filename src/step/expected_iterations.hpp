@@ -5,7 +5,7 @@
 
 namespace dygita {
 
-constexpr double iterations_of_shocks = 7.0;  // of a dynamic increment without contact that changes
+constexpr double iterations_of_shocks = 7.0;  // of a dynamic increment in which no law may turn
 
 struct ExpectedIterations {
   double fewest, most;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "base/log.hpp"
 #include "intake/step_assembly.hpp"

@@ -169,7 +169,7 @@ TEST(RepeatedFactor, answers_where_it_is_asked_through_what_lies_between_alone) 
   for (const int i : asked) EXPECT_EQ(part[i], whole[i]) << i;
 }
 
-TEST(RepeatedFactor, tells_how_far_it_is_and_is_ended_by_who_hears_it) {
+TEST(RepeatedFactor, tells_how_far_it_is_and_ends_where_the_watcher_throws) {
   const Lattice of = lattice(large);
   for (const int n : {1, 2}) {
     Threads threads;
