@@ -95,7 +95,7 @@ TEST(Environment, gives_the_same_random_numbers_in_every_run) {
   EXPECT_EQ(first.requests.at(0).identity.parameters, second.requests.at(0).identity.parameters);
 }
 
-TEST(TimeLimit, stops_a_loop_without_end) {
+TEST(TimeLimit, stops_an_infinite_loop) {
   const std::string message = message_with_limits("local n = 0\nwhile true do\n  n = n + 1\nend", 0.2, 100);
   EXPECT_TRUE(contains(message, "deck code has run for 0.2 s and was stopped")) << message;
   EXPECT_TRUE(contains(message, "--time-limit")) << message;
@@ -167,7 +167,7 @@ TEST(Searches, that_would_never_end_are_refused) {
   EXPECT_TRUE(contains(message_of("table.move({}, 1, 1e15, 2)"), "table has no 'move'"));
 }
 
-TEST(Recursion, without_end_is_an_error_of_the_deck) {
+TEST(Recursion, that_is_infinite_is_an_error_of_the_deck) {
   EXPECT_TRUE(contains(message_of("local function f(x) return 1 + f(x) end\nlocal y = f(1)"), "stack overflow"));
 }
 

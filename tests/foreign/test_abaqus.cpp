@@ -73,7 +73,7 @@ TEST(Abaqus, suffixes_are_told_once_with_what_they_mean_here) {
          {"plate.inp:3", "C3D8T", "C3D4, C3D6, C3D8, C3D10, C3D15, C3D20"});
 }
 
-TEST(Abaqus, cells_of_a_section_that_hang_together_in_pieces_are_parts) {
+TEST(Abaqus, connected_cells_of_a_section_are_parts) {
   const auto file = read(cube(1, 0, "PINS") + cube(11, 20, "PINS") + cube(21, 40, "PLATE") +
                          "*SOLID SECTION, ELSET=PINS, MATERIAL=STEEL\n*SOLID SECTION, ELSET=PLATE, MATERIAL=ALU\n");
   ASSERT_EQ(file->parts().size(), 3u);

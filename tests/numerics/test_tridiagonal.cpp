@@ -35,7 +35,7 @@ TEST(TopOfTridiagonal, is_that_of_the_dense_matrix) {
   expect_those_of_the_dense_matrix(1e-3, -5.0);
 }
 
-TEST(TopOfTridiagonal, of_rows_that_do_not_hang_together) {
+TEST(TopOfTridiagonal, of_rows_that_are_not_connected) {
   TopOfTridiagonal top;
   top.add(2.0, 0.0);
   EXPECT_EQ(top.value(), 2.0);

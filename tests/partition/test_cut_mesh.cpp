@@ -25,7 +25,7 @@ std::multiset<std::vector<int>> cells_of(const Mesh& mesh, const std::vector<int
 }
 
 // Through facets, from the first cell.
-bool hangs_together(const Mesh& mesh) {
+bool is_connected(const Mesh& mesh) {
   const std::vector<int> lumps = lump_of_cells(mesh);
   return *std::max_element(lumps.begin(), lumps.end()) == 0;
 }
@@ -37,7 +37,7 @@ std::vector<MeshPtr> meshes() {
           GmshMeshes({file, {{"n", 40.0}, {"cells", 0.0}}, {}, 1.0}).volume("bar")};
 }
 
-TEST(CutMesh, every_cell_is_in_one_piece_and_each_piece_hangs_together) {
+TEST(CutMesh, every_cell_is_in_one_piece_and_each_piece_is_connected) {
   for (const MeshPtr& mesh : meshes())
     for (const int n : {2, 3, 8}) {
       const std::vector<MeshPiece> pieces = cut_mesh(*mesh, piece_of_cells(*mesh, n));
@@ -47,7 +47,7 @@ TEST(CutMesh, every_cell_is_in_one_piece_and_each_piece_hangs_together) {
       int smallest = mesh->n_cells(), largest = 0;
       for (const MeshPiece& piece : pieces) {
         EXPECT_NO_THROW(check_mesh(*piece.mesh, "piece"));
-        EXPECT_TRUE(hangs_together(*piece.mesh));
+        EXPECT_TRUE(is_connected(*piece.mesh));
         EXPECT_TRUE(std::is_sorted(piece.nodes.begin(), piece.nodes.end()));
         for (int i = 0; i < piece.mesh->n_nodes(); ++i)
           EXPECT_EQ(Vec3(piece.mesh->nodes.col(i)), Vec3(mesh->nodes.col(piece.nodes[i])));
@@ -82,7 +82,7 @@ TEST(CutMesh, lumps_that_touch_nowhere_are_pieces_of_their_own) {
   two.nodes.rightCols(n) = two.nodes.leftCols(n).colwise() + Vec3(5, 0, 0);
   const std::vector<int> cells = two.blocks[0].nodes;
   for (const int node : cells) two.blocks[0].nodes.push_back(node + n);
-  for (const MeshPiece& piece : cut_mesh(two, piece_of_cells(two, 3))) EXPECT_TRUE(hangs_together(*piece.mesh));
+  for (const MeshPiece& piece : cut_mesh(two, piece_of_cells(two, 3))) EXPECT_TRUE(is_connected(*piece.mesh));
 }
 
 TEST(CutMesh, no_more_pieces_than_cells) {
