@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "law/law.hpp"
+#include "marching/force_leap.hpp"
 #include "step/distant_points.hpp"
 
 namespace dygita {
@@ -15,6 +16,7 @@ namespace dygita {
 namespace {
 
 constexpr int most_rounds = 20000;
+constexpr int rounds_before_leaps = 200, rounds_between_leaps = 3;
 constexpr int few_points = 32;  // are solved before threads have met
 
 // Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
@@ -229,6 +231,20 @@ Vec DirectPoints::weights_of(const std::vector<int>& members) const {
   return Eigen::Map<const Vec>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }
 
+void DirectPoints::leap_from(const std::vector<int>& members, const Vec& weight) {
+  const auto forces_now = [&] {
+    Vec forces(weight.size());
+    take_forces(members, forces);
+    return forces;
+  };
+  const auto round = [&](const Vec& forces) {
+    give_forces(members, forces);
+    take_turns(members, 1.0);
+    return forces_now();
+  };
+  give_forces(members, leap(forces_now(), weight, round));
+}
+
 // Between meshes that do not match forces are as many as the points, and change little from one increment to the next.
 // Where laws with friction share a node they are not, and zero is where all can stick.
 void DirectPoints::start_from_last(OwnPoint& p) {
@@ -272,6 +288,10 @@ void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vec
     const auto [change, size] = take_turns(members, share);
     swept.change = size > 0.0 ? change / std::max({size, 1e-6 * largest_force_, least}) : 0.0;
     if (swept.change <= close_enough_ || (mixes && in_vain.are_too_many(swept.change, 0.1 * tolerance))) break;
+    if (mixes && swept.sweeps >= rounds_before_leaps) {
+      if (swept.sweeps % rounds_between_leaps == 0) leap_from(members, swept.weight);
+      continue;
+    }
     if (!mixes || share < 1.0) continue;
     take_forces(members, after);
     before = swept.mixing.next(before, after, swept.weight);
