@@ -1,6 +1,7 @@
 #include "meeting/facet_map.hpp"
 
 #include <Eigen/LU>
+#include <limits>
 
 #include "meeting/facet_functions.hpp"
 #include "mesh/shape_functions.hpp"
@@ -12,6 +13,7 @@ namespace {
 constexpr double straight = 1e-12;  // of the size of a facet: mid nodes off the chord, opposite edges unlike
 constexpr int most_steps = 20;
 constexpr double converged = 1e-14;
+constexpr double around = 0.3;  // of the reference facet's size: so far outside a curved facet points are sought
 
 // A linear map gives each node the mean that the corners' linear functions say.
 bool goes_linearly(FacetType type, const Eigen::Ref<const Points>& x) {
@@ -49,6 +51,16 @@ FacetMap::FacetMap(FacetType type, const Points& x, const Vec3& origin, const Ei
   start_.setZero();
   for (int a = 0; a < shape.n_corners; ++a)
     start_ += vector_of(shape.shape.nodes[static_cast<size_t>(a)]).head<2>() / shape.n_corners;
+  low_ = vector_of(shape.shape.nodes[0]).head<2>();
+  high_ = low_;
+  for (int a = 1; a < shape.n_corners; ++a) {
+    const Vec2 corner = vector_of(shape.shape.nodes[static_cast<size_t>(a)]).head<2>();
+    low_ = low_.cwiseMin(corner);
+    high_ = high_.cwiseMax(corner);
+  }
+  const Vec2 beyond = around * (high_ - low_);
+  low_ -= beyond;
+  high_ += beyond;
   if (!is_affine_) return;
   const FacetSlopes slopes = facet_slopes(type, start_);
   back_ = Eigen::Matrix2d(flat_ * slopes).inverse();
@@ -62,15 +74,21 @@ Vec2 FacetMap::inverse(const Vec2& p) const {
   return with_facet(type_, [&](auto shape) {
     using Values = typename decltype(shape)::Values;
     const auto flat = flat_.leftCols<Values::RowsAtCompileTime>();
-    Vec2 xi = start_;
+    Vec2 xi = start_, nearest = start_;
+    double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_steps; ++i) {
       const Vec2 off = flat * shape.values(xi[0], xi[1]) - p;
+      if (off.squaredNorm() < least) {
+        least = off.squaredNorm();
+        nearest = xi;
+      }
       const Eigen::Matrix2d slopes = flat * shape.slopes(xi[0], xi[1]);
       const Vec2 step = slopes.inverse() * off;
-      xi -= step;
-      if (step.cwiseAbs().maxCoeff() < converged) break;
+      if (!step.allFinite()) break;
+      xi = (xi - step).cwiseMax(low_).cwiseMin(high_);
+      if (step.cwiseAbs().maxCoeff() < converged) return xi;
     }
-    return xi;
+    return nearest;
   });
 }
 

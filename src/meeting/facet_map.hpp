@@ -19,7 +19,8 @@ class FacetMap {
   FacetType type() const { return type_; }
   // Do its coordinates go linearly with those of the reference facet?
   bool is_affine() const { return is_affine_; }
-  // Reference coordinates of the point that is projected on p, by Newton's iteration.
+  // Reference coordinates of the point that is projected on p, by Newton's iteration; of a curved facet that is seen
+  // edge on, and has no such point, of the one nearest to it that was met, which is in or beside the facet.
   Vec2 inverse(const Vec2& p) const;
   FacetValues values(const Vec2& xi) const { return facet_values(type_, xi); }
   Vec3 normal(const Vec2& xi) const;  // unit, outward
@@ -29,7 +30,7 @@ class FacetMap {
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_facet_nodes> x_;
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, most_facet_nodes> flat_;
   bool is_affine_;
-  Vec2 start_;
+  Vec2 start_, low_, high_;
   // Where affine: xi = start + back (p - at_start), and the normal.
   Eigen::Matrix2d back_;
   Vec2 at_start_;

@@ -114,6 +114,36 @@ TEST(FacetMap, finds_the_point_of_a_curved_facet_that_is_projected_on_a_place) {
   }
 }
 
+// A facet around 80 degrees of a cylinder, seen along its radius at one edge: beyond the other edge nothing is
+// projected on a place, and Newton's iteration went anywhere.
+TEST(FacetMap, finds_the_nearest_point_where_none_of_a_curved_facet_is_projected_on_a_place) {
+  for (const FacetType type : {FacetType::tri6, FacetType::quad8, FacetType::quad9}) {
+    const FacetShape& shape = facet_shape(type);
+    const bool is_triangle = type == FacetType::tri6;
+    Points x(3, static_cast<Eigen::Index>(shape.shape.nodes.size()));
+    for (int a = 0; a < x.cols(); ++a) {
+      const Vec3 at = vector_of(shape.shape.nodes[static_cast<size_t>(a)]);
+      const double angle = 80.0 / 180.0 * std::numbers::pi * (is_triangle ? at[0] : 0.5 * (1.0 + at[0]));
+      x.col(a) = Vec3(std::cos(angle), std::sin(angle), at[1]);
+    }
+    Eigen::Matrix<double, 3, 2> along;
+    along << 0, 0, 1, 0, 0, 1;
+    const FacetMap map(type, x, Vec3::Zero(), along);
+    const auto projected = [&](const Vec2& xi) -> Vec2 { return along.transpose() * x * facet_values(type, xi); };
+    for (const double y : {1.02, 1.1, 1.3, 2.0})
+      for (const double z : {0.0, 0.1, 0.3}) {
+        const Vec2 p(y, z), xi = map.inverse(p);
+        EXPECT_LE(xi.cwiseAbs().maxCoeff(), 1.6 + 1e-12);
+        EXPECT_LE(facet_values(type, xi).cwiseAbs().maxCoeff(), 8.0);
+        double least = 1e300;
+        for (double r = is_triangle ? 0.0 : -1.0; r <= 1.0; r += 0.02)
+          for (double s = is_triangle ? 0.0 : -1.0; s <= 1.0; s += 0.02)
+            least = std::min(least, (projected({r, s}) - p).norm());
+        EXPECT_LE((projected(xi) - p).norm(), 1.05 * least + 1e-3) << y << " " << z;
+      }
+  }
+}
+
 TEST(Mortar, of_a_square_on_two_rectangles_has_the_rows_of_the_dual_functions) {
   const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1});
   const Mesh upper = *box_mesh(Vec3(0, 0, 1), Vec3(1, 1, 1), {2, 1, 1});
