@@ -17,7 +17,8 @@ namespace {
 
 constexpr int most_rounds = 20000;
 constexpr int rounds_before_leaps = 200, rounds_between_leaps = 3;
-constexpr int few_points = 32;  // are solved before threads have met
+constexpr int leaps_of_a_point = 150000;  // in an increment, shared by those of a set: some seconds at most
+constexpr int few_points = 32;            // are solved before threads have met
 
 // Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
 double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }
@@ -231,6 +232,14 @@ Vec DirectPoints::weights_of(const std::vector<int>& members) const {
   return Eigen::Map<const Vec>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }
 
+// A tie takes any force.
+bool DirectPoints::have_bounded_forces(const std::vector<int>& members) const {
+  return std::none_of(members.begin(), members.end(), [&](int i) {
+    const Law* const law = points_[i].point->law;
+    return !law || law->is_tie();
+  });
+}
+
 void DirectPoints::leap_from(const std::vector<int>& members, const Vec& weight) {
   const auto forces_now = [&] {
     Vec forces(weight.size());
@@ -282,14 +291,20 @@ void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vec
   Vec before(swept.weight.size()), after(before.size());
   swept.mixing.begin();
   RoundsInVain in_vain;
+  int n_leaps = 0;
+  const int most_leaps =
+      mixes && have_bounded_forces(members) ? leaps_of_a_point / static_cast<int>(members.size()) : 0;
   take_forces(members, before);
   for (swept.sweeps = 1; swept.sweeps <= most_rounds; ++swept.sweeps) {
     const double share = share_of(swept.sweeps);
     const auto [change, size] = take_turns(members, share);
     swept.change = size > 0.0 ? change / std::max({size, 1e-6 * largest_force_, least}) : 0.0;
     if (swept.change <= close_enough_ || (mixes && in_vain.are_too_many(swept.change, 0.1 * tolerance))) break;
-    if (mixes && swept.sweeps >= rounds_before_leaps) {
-      if (swept.sweeps % rounds_between_leaps == 0) leap_from(members, swept.weight);
+    if (swept.sweeps >= rounds_before_leaps && n_leaps < most_leaps) {
+      if (swept.sweeps % rounds_between_leaps == 0) {
+        leap_from(members, swept.weight);
+        ++n_leaps;
+      }
       continue;
     }
     if (!mixes || share < 1.0) continue;

@@ -129,6 +129,7 @@ class DirectPoints {
   void take_forces(const std::vector<int>& members, Vec& forces) const;
   void give_forces(const std::vector<int>& members, const Vec& forces);
   Vec weights_of(const std::vector<int>& members) const;
+  bool have_bounded_forces(const std::vector<int>& members) const;
   void leap_from(const std::vector<int>& members, const Vec& weight);
   void start_from_last(OwnPoint& p);
   double least_force(const std::vector<int>& members) const;

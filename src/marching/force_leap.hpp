@@ -9,8 +9,9 @@
 namespace dygita {
 
 // Forces (N) to go on from. round: what it makes of forces. weight: of the squares of forces, none negative; those
-// without weight move nothing. The Jacobian of a round times a vector is a difference of two rounds. Where forces can
-// change without end since no round closes what is left, it goes as far as each round does what the first one did.
+// without weight move nothing. The Jacobian of a round times a vector is a difference of two rounds. Where rounds
+// change forces that move nothing, by as much each time, it goes as far as they go on so: until a point slides or
+// opens. Ties in such a loop would go on without bound.
 Vec leap(const Vec& forces, const Vec& weight, const std::function<Vec(const Vec&)>& round);
 
 }  // namespace dygita
