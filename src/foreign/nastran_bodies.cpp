@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 
 #include "base/error.hpp"
 #include "foreign/nastran_supports.hpp"
@@ -36,9 +37,10 @@ double NastranBodies::size_of(const std::vector<int>& nodes) const {
 // Moments I(1,1), I(2,2), I(3,3) and products, which the matrix has with a minus.
 Mat3 NastranBodies::inertia_of(const BulkFields& fields) const {
   constexpr int moments = 9;
-  const auto at = [&](int i) { return fields.real_or(moments + i, 0.0, "a moment of inertia"); };
+  std::array<double, 6> at{};
+  for (int i = 0; i < 6; ++i) at[static_cast<size_t>(i)] = fields.real_or(moments + i, 0.0, "a moment of inertia");
   Mat3 inertia;
-  inertia << at(0), -at(1), -at(3), -at(1), at(2), -at(4), -at(3), -at(4), at(5);
+  inertia << at[0], -at[1], -at[3], -at[1], at[2], -at[4], -at[3], -at[4], at[5];
   return inertia;
 }
 

@@ -61,13 +61,15 @@ Outside surfaces_with(const SubstructurePtr& part, const std::vector<Facet>& fac
                     "'unit'; model an interference by a negative 'gap' between faces that coincide",
                     who, 1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume));
   const Separation apart = separation(outside_1, outside_2);
-  const bool is_near = apart.distance <= within;
+  constexpr const char* at_edges =
+      "{} have no area in common, although they come within {:.3g} mm of each other, as at {}\n"
+      "    they meet at an edge or a point alone, or the facets of a round face are too coarse to tell: smaller cells "
+      "('round', 'size') there, or a larger 'within'";
+  if (apart.distance <= within) throw InputError(fmt::format(at_edges, who, 1e3 * within, at(apart.place_1)));
   throw InputError(fmt::format(
-      "{} touch nowhere within {:.3g} mm: they are {:.4g} mm apart where they are nearest, from {} to {}\n    {}", who,
-      1e3 * within, 1e3 * apart.distance, at(apart.place_1), at(apart.place_2),
-      is_near ? "they meet only at an edge or a point, or their facets are too coarse to decide: 'within' sets how far "
-                "apart touching faces may be"
-              : "check 'place', 'origin' and 'unit'; 'within' sets how far apart touching faces may be"));
+      "{} touch nowhere within {:.3g} mm: they are {:.4g} mm apart where they are nearest, from {} to {}\n    check "
+      "'place', 'origin' and 'unit'; 'within' sets how far apart touching faces may be",
+      who, 1e3 * within, 1e3 * apart.distance, at(apart.place_1), at(apart.place_2)));
 }
 
 Box box_of(const Substructure& part) { return PlacedBody{part.mesh.get(), part.place}.box(); }

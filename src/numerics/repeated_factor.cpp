@@ -67,11 +67,12 @@ bool RepeatedFactor::factorise(const SparseMatrix& matrix, const std::vector<int
     watch(std::min(1.0, done / operations_));
   };
   try {
-    const bool is_positive =
+    const int at =
         eliminate(matrix, order, static_cast<int>(order.size()), supernodes_, keep, watch ? Watch(tell) : Watch())
-            .not_positive < 0;
+            .not_positive;
+    not_positive_ = at < 0 ? -1 : order_[static_cast<size_t>(at)];
     factor_.arrange();
-    return is_positive;
+    return at < 0;
   } catch (const std::bad_alloc&) {
     throw NumericalError(what_ + ": factorisation failed: out of memory");
   }

@@ -31,6 +31,8 @@ class RepeatedFactor {
   // watch: is called with how much of the work is done, 0 to 1; one call at a time, on any thread. What it throws ends
   // the work, and there is no factor then.
   bool factorise(const SparseMatrix& matrix, const std::function<void(double)>& watch = {});
+  // The unknown at which the last matrix was found not to be positive definite; -1: it is.
+  int not_positive() const { return not_positive_; }
   // The same of a matrix whose unknowns are in that order already, its upper triangle alone.
   bool factorise_in_order(const SparseMatrix& upper, const std::function<void(double)>& watch = {});
   // A^-1 b of the matrix last factorised; several right-hand sides are columns.
@@ -48,6 +50,7 @@ class RepeatedFactor {
   PackedFactor factor_;
   std::unique_ptr<KeepScratch> scratch_ = std::make_unique<KeepScratch>();
   double operations_ = 0.0;
+  int not_positive_ = -1;
   std::string what_;
 };
 

@@ -185,6 +185,14 @@ void AssembledSystem::answer_preloads() {
   yielding_ -= columns_.transpose() * answers_;
 }
 
+std::string AssembledSystem::place_of(int unknown) const {
+  const auto piece = std::upper_bound(first_.begin(), first_.end(), unknown) - first_.begin() - 1;
+  const Substructure& body = *model_->cut->piece(static_cast<int>(piece)).body;
+  const int node = pieces_[static_cast<size_t>(piece)]->op().unknowns().node_of_unknown()[unknown - first_[piece]];
+  const Vec3 x = 1e3 * (body.mesh->nodes.col(node) + body.place);
+  return fmt::format("in '{}' at ({:.4g}, {:.4g}, {:.4g}) mm", body.name, x[0], x[1], x[2]);
+}
+
 void AssembledSystem::set_tangents(Tangents tangents) {
   tangents_ = std::move(tangents);
   set_own();
@@ -195,9 +203,10 @@ void AssembledSystem::set_tangents(Tangents tangents) {
     if (watch_) watch_(fmt::format("factor {:.0f} %", 100.0 * share));
   };
   if (!factor_->factorise_in_order(matrix_, tell))
-    throw NumericalError("static step '" + model_->step->name +
-                         "': the system is not positive definite: an unconstrained rigid motion, or a cell of almost "
-                         "no volume");
+    throw NumericalError(fmt::format(
+        "static step '{}': the system is not positive definite, first found so {}: an unconstrained rigid motion, or a "
+        "cell of almost no volume",
+        model_->step->name, place_of(factor_->not_positive())));
   answer_preloads();
 }
 

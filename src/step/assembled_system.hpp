@@ -50,6 +50,7 @@ class AssembledSystem {
   void set_velocities();
 
  private:
+  std::string place_of(int unknown) const;  // as messages say it
   // Rows of a point's unknowns on the unknowns of the system.
   struct PointTraces {
     std::vector<int> unknowns;

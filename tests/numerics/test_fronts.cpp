@@ -135,6 +135,18 @@ TEST(RepeatedFactor, takes_half_of_a_matrix_that_is_in_its_order_to_the_same_bit
   EXPECT_EQ(factor.solve(b), x);
 }
 
+TEST(RepeatedFactor, names_the_unknown_where_a_matrix_is_not_positive_definite) {
+  const Lattice of = lattice(large);
+  SparseMatrix wrong = of.matrix;
+  const int unknown = of.size() / 3;
+  wrong.coeffRef(unknown, unknown) = -1e6;
+  RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+  EXPECT_FALSE(factor.factorise(wrong));
+  EXPECT_EQ(factor.not_positive(), unknown);
+  EXPECT_TRUE(factor.factorise(of.matrix));
+  EXPECT_EQ(factor.not_positive(), -1);
+}
+
 // All of a dense matrix is one front.
 TEST(RepeatedFactor, knows_the_memory_that_it_works_in) {
   constexpr int n = 30;
