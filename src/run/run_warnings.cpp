@@ -140,8 +140,8 @@ void warn_of_books(const Problem& problem, const RunResult& result, const Shares
                                       [](const StepSummary& step) { return step.increments_not_converged > 0; });
   if (shares.lost > limit::numerical_dissipation)
     warn(fmt::format("numerical dissipation takes {:.1f} % of {} ({} reduce it", shares.lost, what,
-                     is_motion ? "impacts; releases): use a smaller dt or smaller elements"
-                               : "increments that close a gap, parts that stop): use more static increments"));
+                     is_motion ? "impacts; releases): a smaller dt or smaller elements"
+                               : "increments that close a gap, parts that stop): more static increments"));
   if (shares.gained > limit::energy_gain)
     warn(fmt::format("the numerical energy gain is {:.2f} % of {}: take {}", shares.gained, what,
                      is_motion ? "a smaller dt or tolerance" : "more static increments"));
