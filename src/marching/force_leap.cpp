@@ -11,10 +11,9 @@ namespace {
 
 constexpr double precision = 1e-3, difference = 1e-7;
 constexpr int most_products = 100;
-// Added to what each force answers itself with: a direction that no round closes is then a long way, not an endless
-// one.
+// Keeps the Jacobian regular: in a direction in which rounds do not converge the solution is long, but finite.
 constexpr double shift = 1e-5;
-constexpr double far = 1e12;  // rounds at once, where the way was not found
+constexpr double far = 1e12;  // rounds taken at once where GMRES has found no solution
 constexpr int most_halvings = 50;
 constexpr double as_before = 1.01;  // times the change of the first round
 

@@ -114,8 +114,8 @@ TEST(FacetMap, finds_the_point_of_a_curved_facet_that_is_projected_on_a_place) {
   }
 }
 
-// A facet around 80 degrees of a cylinder, seen along its radius at one edge: beyond the other edge nothing is
-// projected on a place, and Newton's iteration went anywhere.
+// A facet around 80 degrees of a cylinder, seen along its radius at one edge: no point of it is projected on places
+// beyond the other edge, where Newton's iteration diverges if nothing bounds it.
 TEST(FacetMap, finds_the_nearest_point_where_none_of_a_curved_facet_is_projected_on_a_place) {
   for (const FacetType type : {FacetType::tri6, FacetType::quad8, FacetType::quad9}) {
     const FacetShape& shape = facet_shape(type);
