@@ -39,6 +39,7 @@ usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build the program, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test [NAME]      install what is missing, build the program and its tests, pass them; with NAME only those whose name matches it (ctest -R)
+./run.sh test --all       the slow ones too (label 'slow' in tests/CMakeLists.txt): decks against refined or converged answers
 ./run.sh sanitize [decks] build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks;
                           'threads': small decks on three threads under the sanitizer of threads (clang, build/threads)
                           'decks': these and a minute of the fuzzers, which needs the program and them alone
@@ -152,7 +153,7 @@ install_test_packages() {
 n_jobs() {
   local cores memory
   cores="$(nproc)"
-  memory="$(awk '/^MemAvailable/ { print int($2 / 1.5e6) }' /proc/meminfo 2>/dev/null || true)"
+  memory="$(awk '/^MemAvailable/ { print int($2 / 2e6) }' /proc/meminfo 2>/dev/null || true)"
   memory="${memory:-$cores}"
   ((memory > 0)) || memory=1
   echo $((memory < cores ? memory : cores))
@@ -171,11 +172,17 @@ build_engine() {
     fail "the build failed; the first error is above"
 }
 
-# The tests whose name matches $1, or all.
+# The tests whose name matches $1, all with --all, or all but the slow ones.
 run_tests() {
+  local chosen=(-LE slow)
+  case "${1:-}" in
+    "") ;;
+    --all) chosen=() ;;
+    *) chosen=(-R "$1") ;;
+  esac
   say "Testing"
   # One more than there are cores: several tests wait for ranks, signals or a browser.
-  (cd "$root" && ctest --preset release --parallel "$(($(nproc) + 1))" ${1:+-R "$1"}) ||
+  (cd "$root" && ctest --preset release --parallel "$(($(nproc) + 1))" "${chosen[@]}") ||
     fail "tests failed; the last lines above name them" "one of them again: ./run.sh test NAME"
 }
 

@@ -48,7 +48,7 @@ endfunction()
 function(dygita_target_options target)
   # Files compiled in one batch shadow each other's constants, which is no fault of theirs.
   set(shadow -Wshadow)
-  if(CMAKE_UNITY_BUILD AND DYGITA_WARNINGS_AS_ERRORS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     set(shadow -Wshadow=local)
   endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic ${shadow} -Wnon-virtual-dtor

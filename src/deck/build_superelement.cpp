@@ -1,7 +1,6 @@
 // substructure.superelement, .rigid and mass.point, and what they have in common with other substructures.
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -10,6 +9,7 @@
 #include "deck/build_model.hpp"
 #include "intake/condensed_builder.hpp"
 #include "intake/superelement_file.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -121,7 +121,7 @@ Mat3 inertia_in(const LuaArguments& a) {
   given.resize(6, 0.0);
   Mat3 inertia;
   inertia << given[0], given[3], given[4], given[3], given[1], given[5], given[4], given[5], given[2];
-  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues();
+  const Vec3 principal = principal_axes(inertia).values;
   constexpr double round_off = 1e-6;
   if (!(principal[0] > 0) || principal[2] > (1 + round_off) * (principal[0] + principal[1]))
     throw InputError(fmt::format(

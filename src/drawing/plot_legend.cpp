@@ -9,7 +9,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double character = 6.4, symbol = 26.0, gap = 6.0, margin = 8.0;  // px; `character`: mean width of one
+constexpr double character = 6.4, symbol = 26.0, gap = 6.0, indent = 8.0;  // px; `character`: mean width of one
 
 }  // namespace
 
@@ -32,11 +32,11 @@ PlotLegend::PlotLegend(const Plot& plot) {
   for (size_t i = 0; i < plot.stacked.size(); ++i)
     add(plot.stacked[i].name, color_of(plot.stacked[i], i), Shape::area, 0.75);
   for (const PlotBand& band : plot.bands) add(band.name, band.color, Shape::area, band.opacity);
-  double x = margin;
+  double x = indent;
   for (Entry& entry : entries_) {
     const double width = symbol + gap + text_width(entry.name) + 2.0 * gap;
-    if (x > margin && x + width > plot.width) {
-      x = margin;
+    if (x > indent && x + width > plot.width) {
+      x = indent;
       ++n_rows_;
     }
     entry.x = x;

@@ -4,13 +4,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "foreign/abaqus_steps.hpp"
 #include "mesh/cell_types.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -168,16 +168,16 @@ void AbaqusReferences::choose_three(Reference& reference) {
 // They weigh motions as well: their work in a rigid motion is that of the force and the moment.
 std::vector<Vec3> AbaqusReferences::shared(const Reference& reference, const Vec3& force, const Vec3& moment) const {
   const double size = size_of(reference);
-  Eigen::Matrix<double, 6, 9> sums;
+  Mat sums(6, 9);
   for (int i = 0; i < 3; ++i) {
     const Vec3 arm = (place(reference.three_nodes[static_cast<size_t>(i)]) - place(reference.node)) / size;
     for (int d = 0; d < 3; ++d) sums.col(3 * i + d) << Vec3(Vec3::Unit(d)), arm.cross(Vec3::Unit(d));
   }
-  Eigen::Matrix<double, 6, 1> given;
+  Vec given(6);
   given << force, moment / size;
-  const Eigen::Matrix<double, 9, 1> forces = sums.completeOrthogonalDecomposition().solve(given);
   std::vector<Vec3> found;
   constexpr double rounding = 1e-12;
+  const Vec forces = solve_least_norm(sums, given, rounding).x;
   for (int i = 0; i < 3; ++i) {
     Vec3 own = forces.segment<3>(3 * i);
     for (double& value : own)

@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 
@@ -14,7 +14,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double at_one_place = 1e-6;  // of the size of what is around
+constexpr double coincident = 1e-6;  // of the size of what is around
 
 }  // namespace
 
@@ -91,7 +91,7 @@ NastranBodies::End NastranBodies::end_at(int node, const BulkCard& card, const B
   const long number = model_.places().grids()[static_cast<size_t>(node)].number;
   if (around.size() != 1 || !around[0]->is_mean || !around[0]->doubt.empty())
     fields.fail(fmt::format("node {} is of no cell, and not the centre of one RBE3 of even weights", number));
-  if ((middle_of(around[0]->feet) - x).norm() > at_one_place * size_of(around[0]->feet))
+  if ((middle_of(around[0]->feet) - x).norm() > coincident * size_of(around[0]->feet))
     fields.fail(fmt::format("node {} is not in the middle of its RBE3", number));
   around[0]->is_said = true;
   return {add_place(model_.model(), *around[0]->card, around[0]->feet), x, true};
@@ -134,7 +134,7 @@ void NastranBodies::add_bushing(const BulkCard& card, const BulkFields& fields) 
   spring.one = one.place;
   if (fields.has(4)) {
     const End other = end_at(model_.node(fields.whole(4, "a node"), fields), card, fields);
-    if ((one.x - other.x).norm() > at_one_place * (1.0 + one.x.norm()))
+    if ((one.x - other.x).norm() > coincident * (1.0 + one.x.norm()))
       fields.fail("its nodes are not at one place, and its force has an arm");
     spring.other = other.place;
     turns = turns && other.turns;
@@ -192,7 +192,7 @@ void NastranBodies::add_scalar(const BulkCard& card, const BulkFields& fields) {
     if (is_rotation && !end.turns) fields.fail("a node of a solid does not turn; give it the centre of an RBE3");
   if (ends.size() == 2) {
     const Vec3 apart = ends[0].x - ends[1].x;
-    if (!is_rotation && (apart - apart.dot(along) * along).norm() > at_one_place * (1.0 + ends[0].x.norm()))
+    if (!is_rotation && (apart - apart.dot(along) * along).norm() > coincident * (1.0 + ends[0].x.norm()))
       fields.fail("its nodes are not on a line along its direction");
   }
   FileSpring spring{

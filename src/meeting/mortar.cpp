@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "meeting/facet_parts.hpp"
 #include "meeting/sagitta.hpp"
+#include "numerics/cross_matrix.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -102,12 +103,6 @@ Mat3 pseudo_inverse(const Mat3& inertia) {
     if (eigen.values[i] > flat * eigen.values[2])
       inverse += eigen.vectors.col(i) * eigen.vectors.col(i).transpose() / eigen.values[i];
   return inverse;
-}
-
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return m;
 }
 
 }  // namespace

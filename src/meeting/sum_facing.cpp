@@ -2,20 +2,16 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "numerics/cross_matrix.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
 namespace {
-
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 matrix;
-  matrix << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return matrix;
-}
 
 // The motion as a whole that is nearest to that of a face's nodes: V = sum w V_k, and omega = J^-1 sum w d_k x V_k.
 class MeanMotion {
@@ -32,12 +28,12 @@ class MeanMotion {
       const Mat3 cross = cross_matrix(arms_.col(k));
       inertia_ -= weights_[k] * cross * cross;
     }
-    const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia_);
+    const PrincipalAxes principal = principal_axes(inertia_);
     constexpr double least = 1e-9;
-    if (!(principal.eigenvalues()[0] > least * principal.eigenvalues()[2]))
+    if (!(principal.values[0] > least * principal.values[2]))
       throw InputError(
           fmt::format("the nodes of '{}' lie on a line or at a point, and have no mean rotation", face.name));
-    axes_ = principal.eigenvectors();
+    axes_ = principal.vectors;
     radius_ = std::sqrt(0.5 * inertia_.trace());
   }
 

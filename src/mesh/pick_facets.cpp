@@ -12,17 +12,17 @@ namespace dygita {
 namespace {
 
 const double alike = std::cos(2.0 * M_PI / 180.0);
-constexpr double relative_tolerance = 1e-6, of_radius = 0.02;
+constexpr double relative_tolerance = 1e-6, near_radius = 0.02;
 
-struct Boundary {
+struct PlacedFacets {
   Points x;  // m, of all nodes at their place
   std::vector<Facet> facets;
   std::vector<Vec3> normals;  // unit
   double tolerance;           // m
 };
 
-Boundary boundary_of(const Mesh& mesh, const Vec3& place) {
-  Boundary b{mesh.nodes.colwise() + place, boundary_facets(mesh), {}, 0.0};
+PlacedFacets placed_facets(const Mesh& mesh, const Vec3& place) {
+  PlacedFacets b{mesh.nodes.colwise() + place, boundary_facets(mesh), {}, 0.0};
   for (const Facet& facet : b.facets) b.normals.push_back(facet_area_vector(b.x, facet).normalized());
   b.tolerance = relative_tolerance * (b.x.rowwise().maxCoeff() - b.x.rowwise().minCoeff()).norm();
   return b;
@@ -36,7 +36,7 @@ struct Cylinder {
 
 // The cylinder through the nodes of a patch: its axis is what the normals have in common least, its circle the one of
 // least squares.
-Cylinder cylinder_through(const Boundary& b, const std::vector<int>& facets) {
+Cylinder cylinder_through(const PlacedFacets& b, const std::vector<int>& facets) {
   Mat3 normals = Mat3::Zero();
   std::vector<Facet> patch;
   for (const int f : facets) {
@@ -62,11 +62,11 @@ Cylinder cylinder_through(const Boundary& b, const std::vector<int>& facets) {
   double off = 0.0;
   for (Eigen::Index i = 0; i < system.rows(); ++i)
     off = std::max(off, std::abs(std::hypot(system(i, 0) - p, system(i, 1) - q) - cylinder.radius));
-  cylinder.is_one = off < of_radius * cylinder.radius;
+  cylinder.is_one = off < near_radius * cylinder.radius;
   return cylinder;
 }
 
-std::vector<char> on_cylinders(const Boundary& b, const FacetPick& pick) {
+std::vector<char> on_cylinders(const PlacedFacets& b, const FacetPick& pick) {
   const std::vector<int> patch = smooth_patches(b.facets, b.normals);
   std::map<int, std::vector<int>> members;
   for (size_t f = 0; f < patch.size(); ++f) members[patch[f]].push_back(static_cast<int>(f));
@@ -74,14 +74,14 @@ std::vector<char> on_cylinders(const Boundary& b, const FacetPick& pick) {
   for (const auto& [number, facets] : members) {
     const Cylinder cylinder = cylinder_through(b, facets);
     const bool is_meant = cylinder.is_one &&
-                          (!pick.radius || std::abs(cylinder.radius - *pick.radius) < of_radius * *pick.radius) &&
+                          (!pick.radius || std::abs(cylinder.radius - *pick.radius) < near_radius * *pick.radius) &&
                           (!pick.axis || std::abs(cylinder.axis.dot(*pick.axis)) > alike);
     for (const int f : facets) fits[f] = is_meant;
   }
   return fits;
 }
 
-bool fits_place(const Boundary& b, size_t f, const FacetPick& pick) {
+bool fits_place(const PlacedFacets& b, size_t f, const FacetPick& pick) {
   if (pick.normal && b.normals[f].dot(*pick.normal) < alike) return false;
   for (const int node : b.facets[f].nodes()) {
     const Vec3 x = b.x.col(node);
@@ -97,7 +97,7 @@ bool fits_place(const Boundary& b, size_t f, const FacetPick& pick) {
 }  // namespace
 
 std::vector<Facet> pick_facets(const Mesh& mesh, const Vec3& place, const FacetPick& pick) {
-  const Boundary b = boundary_of(mesh, place);
+  const PlacedFacets b = placed_facets(mesh, place);
   const std::vector<char> round = pick.is_cylinder ? on_cylinders(b, pick) : std::vector<char>(b.facets.size(), 1);
   std::vector<Facet> facets;
   for (size_t f = 0; f < b.facets.size(); ++f)

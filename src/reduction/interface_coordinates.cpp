@@ -6,6 +6,7 @@
 #include <set>
 
 #include "model/places.hpp"
+#include "numerics/cross_matrix.hpp"
 #include "numerics/dense.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "watch/weighted_nodes.hpp"
@@ -36,12 +37,6 @@ PlacedNodes placed_nodes(const LinearAssembly& assembly, const Problem& problem,
     placed.centre += placed.weights.back() * placed.places.back();
   }
   return placed;
-}
-
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
-  return m;
 }
 
 // Six mean motions (eq. D2): translations, and rotations where the nodes do not lie on a line.

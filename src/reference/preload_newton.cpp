@@ -13,7 +13,7 @@ constexpr double near_enough = 1e-7;  // relative: from there on Newton's own sl
 
 // The search of the shortenings ends: forces that are no solution lead nowhere, or the user wishes so.
 struct GivenUp {};
-constexpr int most_in_vain = 4;  // solutions that have not converged, one after the other
+constexpr int most_solutions_in_vain = 4;  // solutions that have not converged, one after the other
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Vec PreloadNewton::forces(const Vec& d) {
   outcome_ = solve_();
   n_iterations_ += outcome_.iterations;
   n_in_vain_ = outcome_.converged ? 0 : n_in_vain_ + 1;
-  if (n_in_vain_ == most_in_vain) throw GivenUp();
+  if (n_in_vain_ == most_solutions_in_vain) throw GivenUp();
   for (int i = 0; i < d.size(); ++i)
     for (const int p : preloads_[i].points) force[i] += (*records_)[p].force[0];
   return force;

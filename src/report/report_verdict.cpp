@@ -80,7 +80,7 @@ void doubt(Card& card, const Json& record) {
 }
 
 // A figure, if the run has it: fine up to `good`, poor beyond `limit`.
-struct Judged {
+struct JudgedFigure {
   Figure figure;
   const char *name, *note;
   double good, limit;
@@ -88,12 +88,12 @@ struct Judged {
 
 // Static steps of a run with motion are mostly in order: only what matters has a card.
 void add_static_books(const RunFolder& run, std::vector<Card>& cards) {
-  const Judged of_statics[] = {
+  const JudgedFigure of_statics[] = {
       {&Figures::static_imbalance, "energy balance, static", "of the static steps", 0.0, limit::energy_imbalance},
       {&Figures::static_dissipation, "numerical dissipation, static", "gaps that close; lower with more increments",
        0.0, limit::numerical_dissipation},
       {&Figures::static_gain, "numerical energy gain, static", "of the static steps", 0.0, limit::energy_gain}};
-  for (const Judged& one : of_statics)
+  for (const JudgedFigure& one : of_statics)
     if (run.has_figure(one.figure) && !(run.figure(one.figure) <= one.limit))
       cards.push_back({one.name,
                        std::isfinite(run.figure(one.figure)) ? percent(run.figure(one.figure)) : "not a number",
@@ -110,7 +110,7 @@ std::vector<Card> trust_of(const RunFolder& run) {
   const double penalty = limit::penalty_error_of(limit::penalty_energy);
   const char* whose =
       run.has_figure(&Figures::energy_of_motion) ? "of the energy of the motion" : "of the largest energy";
-  const Judged all[] = {
+  const JudgedFigure all[] = {
       {&Figures::energy_imbalance, "energy balance closes within", whose, limit::energy_imbalance,
        limit::energy_imbalance},
       {&Figures::numerical_dissipation, "numerical dissipation",
@@ -129,7 +129,7 @@ std::vector<Card> trust_of(const RunFolder& run) {
       {&Figures::static_iteration_error, "iteration error", still, limit::iteration_error, limit::iteration_error},
       {&Figures::static_mesh_error, "mesh error", still, limit::good_discretisation, limit::discretisation_error}};
   std::vector<Card> cards;
-  for (const Judged& one : all) {
+  for (const JudgedFigure& one : all) {
     if (!run.has_figure(one.figure)) continue;
     const double value = run.figure(one.figure);
     const Grade grade = value <= one.good ? Grade::fine : value <= one.limit ? Grade::fair : Grade::poor;

@@ -1,36 +1,14 @@
 // Every row of the table of cells, as the kernels use it.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "fem/cells.hpp"
+#include "fem/every_cell.hpp"
 #include "fem/meshes.hpp"
 #include "fem/uniform_strain.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita::test {
 namespace {
-
-// The reference cell, sheared and shaken.
-template <class Cell>
-Nodes<Cell::n_nodes> distorted_nodes() {
-  std::mt19937 generator(3);
-  std::uniform_real_distribution<double> shift(-0.08, 0.08);
-  Mat3 shear;
-  shear << 2, 0.3, 0.2, 0, 1, 0.4, 0.1, 0, 1.5;
-  Nodes<Cell::n_nodes> x;
-  for (int a = 0; a < Cell::n_nodes; ++a)
-    x.col(a) = shear * vector_of(Cell::row.shape.nodes[a]) + Vec3(shift(generator), shift(generator), shift(generator));
-  return x;
-}
-
-template <typename Check>
-void for_each_cell(Check check) {
-  for (const CellShape& row : cell_shapes) {
-    SCOPED_TRACE(row.name);
-    with_cell(row.type, check);
-  }
-}
 
 TEST(CellRows, lump_to_positive_masses_of_the_right_total) {
   for_each_cell([](auto cell) {

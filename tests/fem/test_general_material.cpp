@@ -1,15 +1,14 @@
 // Kernels of materials with directions: any symmetric positive stiffness of 21 constants, as it lies in each cell.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <random>
-
 #include "base/error.hpp"
 #include "fem/cell_tensor.hpp"
 #include "fem/cells.hpp"
+#include "fem/every_cell.hpp"
 #include "fem/mass.hpp"
 #include "fem/meshes.hpp"
 #include "fem/stress_error.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita::test {
 namespace {
@@ -25,30 +24,10 @@ Mat6 ply_stiffness() {
 
 Elastic ply() { return {{}, ply_stiffness(), 1.6}; }
 
-template <typename Check>
-void for_each_cell(Check check) {
-  for (const CellShape& row : cell_shapes) {
-    SCOPED_TRACE(row.name);
-    with_cell(row.type, check);
-  }
-}
-
-template <class Cell>
-Nodes<Cell::n_nodes> shaken_nodes() {
-  std::mt19937 generator(5);
-  std::uniform_real_distribution<double> shift(-0.07, 0.07);
-  Mat3 shear;
-  shear << 2, 0.3, 0.2, 0, 1, 0.4, 0.1, 0, 1.5;
-  Nodes<Cell::n_nodes> x;
-  for (int a = 0; a < Cell::n_nodes; ++a)
-    x.col(a) = shear * vector_of(Cell::row.shape.nodes[a]) + Vec3(shift(generator), shift(generator), shift(generator));
-  return x;
-}
-
 TEST(GeneralMaterial, with_two_constants_is_the_isotropic_one_in_every_cell) {
   for_each_cell([](auto cell) {
     using Cell = decltype(cell);
-    const auto x = shaken_nodes<Cell>();
+    const auto x = distorted_nodes<Cell>();
     const ElasticTensor own = ElasticTensor::isotropic(3.0, 0.3), general(own.stiffness());
     const Mat k = Cell::stiffness(x, own);
     EXPECT_LT((Mat(Cell::stiffness(x, general)) - k).cwiseAbs().maxCoeff(), 1e-13 * k.cwiseAbs().maxCoeff());
@@ -66,7 +45,7 @@ TEST(GeneralMaterial, turns_with_its_cell) {
   for_each_cell([](auto cell) {
     using Cell = decltype(cell);
     constexpr int n = Cell::n_nodes;
-    const Nodes<n> x = shaken_nodes<Cell>(), turned = leaning * x;
+    const Nodes<n> x = distorted_nodes<Cell>(), turned = leaning * x;
     const ElasticTensor tensor(ply_stiffness());
     const Mat k = Cell::stiffness(x, tensor), k_turned = Cell::stiffness(turned, tensor.turned(leaning));
     EXPECT_TRUE(k == k.transpose());
@@ -125,7 +104,7 @@ TEST(GeneralMaterial, lies_in_each_cell_of_a_box_as_the_cell_says) {
     for (int a = 0; a < 8; ++a)
       for (int b = 0; b < 8; ++b)
         expected.block<3, 3>(3 * block.cell(i)[a], 3 * block.cell(i)[b]) += k.block<3, 3>(3 * a, 3 * b);
-    highest = std::max(highest, Eigen::SelfAdjointEigenSolver<Mat>(Mat(k)).eigenvalues().maxCoeff());
+    highest = std::max(highest, symmetric_eigen(Mat(k)).values.maxCoeff());
   }
   EXPECT_LT((Mat(assemble(mesh, ply()).stiffness) - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.maxCoeff());
   const double bound = std::pow(max_frequency(mesh, ply()), 2), exact = highest / (ply().density / 8);

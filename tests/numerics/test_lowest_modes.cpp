@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "base/error.hpp"
+#include "numerics/dense.hpp"
 #include "numerics/lowest_modes.hpp"
 
 namespace dygita {
@@ -35,10 +35,7 @@ struct Membrane {
         static_cast<int>(mass.rows()), [&](Eigen::Ref<Mat> x) { x = factor.solve(Mat(x)); }, mass, shift, request,
         "grid");
   }
-  Vec exact() const {
-    return Eigen::GeneralizedSelfAdjointEigenSolver<Mat>(Mat(stiffness), Mat(mass), Eigen::EigenvaluesOnly)
-        .eigenvalues();
-  }
+  Vec exact() const { return generalized_symmetric_eigen(Mat(stiffness), Mat(mass)).values; }
 };
 
 TEST(LowestModes, are_those_of_the_dense_solver_double_ones_included) {
