@@ -25,12 +25,14 @@ LoadedNodes loaded_nodes(const FaceOrRegion& place, std::vector<int>& nodes) {
     nodes = std::move(at.nodes);
     loaded.weights = at.weights;
     loaded.vectors = at.vectors;
+    loaded.moments = at.moments;
   } else {
     nodes = nodes_at(place);
     loaded.weights = Vec::Ones(static_cast<Eigen::Index>(nodes.size()));
     loaded.vectors = Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
   }
   loaded.positions = mesh.nodes(Eigen::all, nodes);
+  if (loaded.moments.cols() == 0) loaded.moments = loaded.positions;
   return loaded;
 }
 

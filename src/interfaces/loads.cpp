@@ -37,16 +37,23 @@ NodesUnderLoad nodes_under_load(const FaceOrRegion& on) {
   if (const auto* region = std::get_if<Region>(&on)) {
     const auto n = static_cast<int>(region->nodes.size());
     result.nodes = region->nodes;
-    result.loaded = {Points(3, n), Vec::Ones(n), Points::Zero(3, n)};
+    result.loaded = {Points(3, n), Vec::Ones(n), Points::Zero(3, n), Points::Zero(3, n)};
   } else {
     const Face& face = std::get<Face>(on);
     FaceNodes nodes = face_nodes(*face.part->mesh, face.facets());
-    result.loaded = {Points(3, nodes.areas.size()), std::move(nodes.weights), std::move(nodes.vectors)};
+    result.loaded = {Points(3, nodes.areas.size()), std::move(nodes.weights), std::move(nodes.vectors),
+                     std::move(nodes.moments)};
     result.nodes = std::move(nodes.nodes);
   }
   const Substructure& part = *std::visit([](const auto& place) { return place.part; }, on);
-  for (size_t i = 0; i < result.nodes.size(); ++i)
-    result.loaded.positions.col(static_cast<int>(i)) = part.mesh->nodes.col(result.nodes[i]) + part.place;
+  for (size_t i = 0; i < result.nodes.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    result.loaded.positions.col(k) = part.mesh->nodes.col(result.nodes[i]) + part.place;
+    if (std::holds_alternative<Region>(on))
+      result.loaded.moments.col(k) = result.loaded.positions.col(k);
+    else
+      result.loaded.moments.col(k) += result.loaded.weights[k] * part.place;
+  }
   return result;
 }
 

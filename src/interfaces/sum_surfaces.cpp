@@ -59,32 +59,25 @@ class Terms {
   std::map<int, Vec3> rows_;
 };
 
-// The nodes of a place with their shares of its mean motion, and what turns them: of the rotation nearest to theirs in
-// the sense of least squares, J^-1 sum m r x u, one about an axis k is sum m ((J^-1 k) x r) . u.
+// A place and its mean motion; its rotation about an axis k is sum ((J^-1 k) x arm) . u.
 struct Place {
   const Substructure* part;
-  std::vector<std::pair<int, double>> shares;
-  Vec3 centre = Vec3::Zero();                 // m
-  Mat3 inertia = Mat3::Zero();                // m^2
+  MeanNodes mean;
   const Interior::Follower* whole = nullptr;  // all nodes follow one rigid face
 
-  explicit Place(const FaceOrRegion& on) : part(&part_of(on)), shares(mean_of(on)) {
-    for (const auto& [node, share] : shares) centre += share * part->mesh->nodes.col(node);
-    for (const auto& [node, share] : shares) {
-      const Vec3 r = part->mesh->nodes.col(node) - centre;
-      inertia += share * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-    }
-    whole = part->mesh->inside->follower(shares.front().first);
-    for (const auto& [node, share] : shares) {
+  explicit Place(const FaceOrRegion& on) : part(&part_of(on)), mean(mean_of(on)) {
+    whole = part->mesh->inside->follower(mean.nodes.front());
+    for (const int node : mean.nodes) {
       const Interior::Follower* own = part->mesh->inside->follower(node);
       if (!own || own->turn < 0 || own->turn != whole->turn) whole = nullptr;
     }
   }
   // m, of gyration.
-  double radius() const { return std::max(std::sqrt(0.5 * inertia.trace()), whole ? whole->size : 0.0); }
+  double radius() const { return std::max(std::sqrt(0.5 * mean.inertia.trace()), whole ? whole->size : 0.0); }
 
   void add_motion(const Vec3& along, Terms& terms) const {
-    for (const auto& [node, share] : shares) terms.add(*part->mesh->inside, node, share * along);
+    for (size_t k = 0; k < mean.nodes.size(); ++k)
+      terms.add(*part->mesh->inside, mean.nodes[k], mean.shares[static_cast<Eigen::Index>(k)] * along);
   }
   // along: a unit vector times a length. Answers whether there is a rotation.
   bool add_rotation(const Vec3& about, Terms& terms) const {
@@ -92,12 +85,12 @@ struct Place {
       terms.add(whole->turn, about / whole->size);
       return true;
     }
-    const PrincipalAxes principal = principal_axes(inertia);
+    const PrincipalAxes principal = principal_axes(mean.inertia);
     constexpr double least = 1e-9;
     if (!(principal.values[0] > least * principal.values[2])) return false;
-    const Vec3 axis = inertia.inverse() * about;
-    for (const auto& [node, share] : shares)
-      terms.add(*part->mesh->inside, node, share * axis.cross(part->mesh->nodes.col(node) - centre));
+    const Vec3 axis = mean.inertia.inverse() * about;
+    for (size_t k = 0; k < mean.nodes.size(); ++k)
+      terms.add(*part->mesh->inside, mean.nodes[k], axis.cross(Vec3(mean.arms.col(static_cast<Eigen::Index>(k)))));
     return true;
   }
 };
@@ -109,7 +102,7 @@ class Sum {
     for (const FaceOrRegion& on : sum.on) {
       const Place& place = places_.emplace_back(on);
       parts_.try_emplace(index_of(problem.substructures, place.part));
-      place_ += (place.centre + place.part->place) / static_cast<double>(sum.on.size());
+      place_ += (place.mean.centre + place.part->place) / static_cast<double>(sum.on.size());
       const Mesh& mesh = *place.part->mesh;
       const double size = mesh.has_cells() ? std::cbrt(volume(mesh)) : extent_of(*place.part).size().norm();
       length_ = std::max(length_, size / std::cbrt(mesh.n_nodes()));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "mesh/mean_nodes.hpp"
 #include "numerics/cross_matrix.hpp"
 #include "numerics/dense.hpp"
 
@@ -13,31 +14,23 @@ namespace dygita {
 
 namespace {
 
-// The motion as a whole that is nearest to that of a face's nodes: V = sum w V_k, and omega = J^-1 sum w d_k x V_k.
+// The motion as a whole that is nearest to that of a face, or of its nodes.
 class MeanMotion {
  public:
   MeanMotion(const PlacedFace& face, MeanBy by) : nodes_(face_nodes(*face.mesh, face.facets)) {
-    weights_ = by == MeanBy::area ? nodes_.weights : Vec(Vec::Ones(nodes_.weights.size()));
-    weights_ /= weights_.sum();
-    arms_.resize(3, weights_.size());
-    for (Eigen::Index k = 0; k < weights_.size(); ++k)
-      arms_.col(k) = face.mesh->nodes.col(nodes_.nodes[static_cast<size_t>(k)]) + face.place;
-    centre_ = arms_ * weights_;
-    arms_.colwise() -= centre_;
-    for (Eigen::Index k = 0; k < weights_.size(); ++k) {
-      const Mat3 cross = cross_matrix(arms_.col(k));
-      inertia_ -= weights_[k] * cross * cross;
-    }
-    const PrincipalAxes principal = principal_axes(inertia_);
+    mean_ = by == MeanBy::area ? mean_nodes(nodes_, face.mesh->nodes)
+                               : mean_nodes(nodes_.nodes, Vec::Ones(nodes_.weights.size()), face.mesh->nodes);
+    mean_.centre += face.place;
+    const PrincipalAxes principal = principal_axes(mean_.inertia);
     constexpr double least = 1e-9;
     if (!(principal.values[0] > least * principal.values[2]))
       throw InputError(
           fmt::format("the nodes of '{}' lie on a line or at a point, and have no mean rotation", face.name));
     axes_ = principal.vectors;
-    radius_ = std::sqrt(0.5 * inertia_.trace());
+    radius_ = std::sqrt(0.5 * mean_.inertia.trace());
   }
 
-  const Vec3& centre() const { return centre_; }
+  const Vec3& centre() const { return mean_.centre; }
   double radius() const { return radius_; }  // m, of gyration
   double area() const { return nodes_.weights.sum(); }
   // N along the largest moment, outwards; T1 along the smallest.
@@ -53,17 +46,17 @@ class MeanMotion {
   // The motion as a whole at a place, as another point of a trace.
   void add_at(const Vec3& place, SideTrace& trace) const {
     std::vector<SideTrace::Share> shares;
-    for (Eigen::Index k = 0; k < weights_.size(); ++k)
-      shares.push_back({nodes_.nodes[static_cast<size_t>(k)], weights_[k], weights_[k] * arms_.col(k)});
-    trace.add(shares, -cross_matrix(place - centre_) * inertia_.inverse());
+    for (size_t k = 0; k < mean_.nodes.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      shares.push_back({mean_.nodes[k], mean_.shares[column], mean_.arms.col(column)});
+    }
+    trace.add(shares, -cross_matrix(place - mean_.centre) * mean_.inertia.inverse());
   }
 
  private:
   FaceNodes nodes_;
-  Vec weights_;  // sum 1
-  Points arms_;  // 3 x n, m, from the centre
-  Vec3 centre_;
-  Mat3 inertia_ = Mat3::Zero(), axes_;  // m^2
+  MeanNodes mean_;  // its centre at the face's place
+  Mat3 axes_;
   double radius_;
 };
 

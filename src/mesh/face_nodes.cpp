@@ -65,10 +65,10 @@ const FacetPoints& points_of(FacetType type) {
   return all[static_cast<size_t>(type)];
 }
 
-// Integrals over a facet of N_a (m^2) and N_a n (m^2).
+// Integrals over a facet of N_a (m^2), N_a n (m^2) and N_a x (m^3).
 struct FacetIntegrals {
   NodeValues areas;
-  NodeVectors normals;
+  NodeVectors normals, moments;
 };
 
 FacetIntegrals facet_integrals(const Points& x, const Facet& facet, const std::vector<FacetPoint>& points) {
@@ -77,7 +77,7 @@ FacetIntegrals facet_integrals(const Points& x, const Facet& facet, const std::v
   NodeVectors places(3, n);
   for (size_t a = 0; a < nodes.size(); ++a) places.col(static_cast<Eigen::Index>(a)) = x.col(nodes[a]);
 
-  FacetIntegrals integrals{NodeValues::Zero(n), NodeVectors::Zero(3, n)};
+  FacetIntegrals integrals{NodeValues::Zero(n), NodeVectors::Zero(3, n), NodeVectors::Zero(3, n)};
   for (const FacetPoint& point : points) {
     const Eigen::Matrix<double, 3, 2> tangents = places.lazyProduct(point.slopes);
     const Vec3 normal = point.weight * tangents.col(0).cross(tangents.col(1));
@@ -85,8 +85,11 @@ FacetIntegrals facet_integrals(const Points& x, const Facet& facet, const std::v
       const Vec3 share = normal / static_cast<double>(n);
       integrals.areas.setConstant(share.norm());
       integrals.normals.colwise() = share;
+      // Of a triangle of three nodes, exact: A/12 (x_a + x_1 + x_2 + x_3).
+      integrals.moments = share.norm() / 4.0 * (places.colwise() + Vec3(places.rowwise().sum()));
     } else {
       integrals.areas += point.values * normal.norm();
+      integrals.moments += places.lazyProduct(point.values) * normal.norm() * point.values.transpose();
       integrals.normals += normal * point.values.transpose();
     }
   }
@@ -100,7 +103,7 @@ FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
   result.nodes = nodes_of(facets);
   const auto n = static_cast<long>(result.nodes.size());
   result.areas = result.weights = Vec::Zero(n);
-  result.normals = result.vectors = Points::Zero(3, n);
+  result.normals = result.vectors = result.moments = Points::Zero(3, n);
   for (const Facet& facet : facets) {
     const FacetPoints& points = points_of(facet.type());
     const FacetIntegrals own = facet_integrals(mesh.nodes, facet, points.own);
@@ -113,6 +116,7 @@ FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
       result.normals.col(i) += shared.normals.col(a);
       result.weights[i] += own.areas[a];
       result.vectors.col(i) += own.normals.col(a);
+      result.moments.col(i) += own.moments.col(a);
     }
   }
   result.normals.colwise().normalize();

@@ -14,6 +14,7 @@ struct FaceNodes {
   Points normals;  // unit, outward, mean by area
   Vec weights;     // m^2, integral of the node's shape function
   Points vectors;  // m^2, integral of that times the normal
+  Points moments;  // m^3, integral of the shape function times the place
 };
 FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets);
 

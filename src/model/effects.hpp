@@ -16,6 +16,7 @@ struct LoadedNodes {
   Vec weights;       // of each node: m^2, its part of a face (not positive at every node of one of order two); 1 in a
                      // region
   Points vectors;    // m^2, weight times outward normal; zero in a region, which has none
+  Points moments;    // m^3, of a face: integral of the node's shape function times the place; in a region the place
 };
 
 // Forces on the nodes of a face or a region.

@@ -53,12 +53,7 @@ Losses losses_between(const Problem& problem) {
   return losses;
 }
 
-Vec3 centre_of(const FaceOrRegion& place) {
-  const Substructure& part = part_of(place);
-  Vec3 centre = part.place;
-  for (const auto& [node, weight] : mean_of(place)) centre += weight * part.mesh->nodes.col(node);
-  return centre;
-}
+Vec3 centre_of(const FaceOrRegion& place) { return part_of(place).place + mean_of(place).centre; }
 
 // The part before each on its best way from one of them; -1: none.
 std::vector<int> parts_before(const Losses& losses, int n, int from) {

@@ -42,17 +42,11 @@ std::vector<int> nodes_at(const FaceOrRegion& place) {
   return nodes;
 }
 
-std::vector<std::pair<int, double>> mean_of(const FaceOrRegion& place) {
-  std::vector<std::pair<int, double>> shares;
-  if (const Face* face = std::get_if<Face>(&place)) {
-    const FaceNodes nodes = face_nodes(*face->part->mesh, face->facets());
-    for (size_t i = 0; i < nodes.nodes.size(); ++i)
-      shares.emplace_back(nodes.nodes[i], nodes.weights[static_cast<Eigen::Index>(i)] / nodes.weights.sum());
-    return shares;
-  }
+MeanNodes mean_of(const FaceOrRegion& place) {
+  const Points& x = part_of(place).mesh->nodes;
+  if (const Face* face = std::get_if<Face>(&place)) return mean_nodes(face_nodes(*face->part->mesh, face->facets()), x);
   const std::vector<int> nodes = nodes_at(place);
-  for (const int node : nodes) shares.emplace_back(node, 1.0 / static_cast<double>(nodes.size()));
-  return shares;
+  return mean_nodes(nodes, Vec::Ones(static_cast<Eigen::Index>(nodes.size())), x);
 }
 
 Target target_of(const FaceOrRegion& place) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mean_nodes.hpp"
 #include "model/model.hpp"
 
 namespace dygita {
@@ -13,8 +14,8 @@ namespace dygita {
 const Substructure& part_of(const FaceOrRegion& place);
 std::string label_of(const FaceOrRegion& place);
 std::vector<int> nodes_at(const FaceOrRegion& place);  // of the part's mesh, increasing
-// Nodes and shares, of sum 1, whose motion is the place's mean one: by area on a face, alike in a region.
-std::vector<std::pair<int, double>> mean_of(const FaceOrRegion& place);
+// The mean motion of a place, in the coordinates of the part's mesh: of all points of a face, of the nodes of a region.
+MeanNodes mean_of(const FaceOrRegion& place);
 
 // On one part, every node of one also a node of the other.
 bool one_in_other(const FaceOrRegion& a, const FaceOrRegion& b);

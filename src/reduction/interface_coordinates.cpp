@@ -18,40 +18,35 @@ namespace {
 using NodeSum = std::vector<std::pair<int, Vec3>>;  // node, coefficient of its displacement
 
 struct PlacedNodes {
-  std::vector<int> nodes;       // counted through all substructures
-  std::vector<double> weights;  // sum to one
-  std::vector<Vec3> places;     // m
-  Vec3 centre = Vec3::Zero();   // weighted mean
+  MeanNodes mean;            // nodes counted through all substructures; the centre where the part is
+  std::vector<Vec3> places;  // m
 };
 
 PlacedNodes placed_nodes(const LinearAssembly& assembly, const Problem& problem, const FaceOrRegion& place) {
   const WeightedNodes on = weighted_nodes(problem, place);
   const Substructure& part = *problem.substructures[on.part];
+  const Points& x = part.mesh->nodes;
   PlacedNodes placed;
-  double total = 0.0;
-  for (const double w : on.weights) total += w;
-  for (size_t i = 0; i < on.nodes.size(); ++i) {
-    placed.nodes.push_back(assembly.first_node[on.part] + on.nodes[i]);
-    placed.weights.push_back(on.weights[i] / total);
-    placed.places.push_back(part.mesh->nodes.col(on.nodes[i]) + part.place);
-    placed.centre += placed.weights.back() * placed.places.back();
+  placed.mean = std::holds_alternative<Face>(place)
+                    ? mean_of(place)
+                    : mean_nodes(on.nodes, Eigen::Map<const Vec>(on.weights.data(), std::ssize(on.weights)), x);
+  placed.mean.centre += part.place;
+  for (int& node : placed.mean.nodes) {
+    placed.places.push_back(x.col(node) + part.place);
+    node += assembly.first_node[on.part];
   }
   return placed;
 }
 
 // Six mean motions (eq. D2): translations, and rotations where the nodes do not lie on a line.
-std::vector<NodeSum> mean_rows(const PlacedNodes& on) {
-  Mat3 inertia = Mat3::Zero();
-  for (size_t i = 0; i < on.nodes.size(); ++i) {
-    const Mat3 c = cross_matrix(on.places[i] - on.centre);
-    inertia += on.weights[i] * c.transpose() * c;
-  }
-  const bool turns = principal_axes(inertia).values[0] > 1e-9 * inertia.trace();
+std::vector<NodeSum> mean_rows(const MeanNodes& on) {
+  const bool turns = principal_axes(on.inertia).values[0] > 1e-9 * on.inertia.trace();
   std::vector<NodeSum> rows(turns ? 6 : 3);
-  const Mat3 inverse = turns ? Mat3(inertia.inverse()) : Mat3(Mat3::Zero());
+  const Mat3 inverse = turns ? Mat3(on.inertia.inverse()) : Mat3(Mat3::Zero());
   for (size_t i = 0; i < on.nodes.size(); ++i) {
-    const Mat3 turn = on.weights[i] * inverse * cross_matrix(on.places[i] - on.centre);
-    for (int d = 0; d < 3; ++d) rows[d].emplace_back(on.nodes[i], on.weights[i] * Vec3::Unit(d));
+    const auto k = static_cast<Eigen::Index>(i);
+    const Mat3 turn = inverse * cross_matrix(on.arms.col(k));
+    for (int d = 0; d < 3; ++d) rows[d].emplace_back(on.nodes[i], on.shares[k] * Vec3::Unit(d));
     for (int d = 0; d < 3 && turns; ++d) rows[3 + d].emplace_back(on.nodes[i], turn.row(d).transpose());
   }
   return rows;
@@ -132,32 +127,32 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
                                    ? FaceOrRegion(std::get<Face>(request.on[f]))
                                    : FaceOrRegion(std::get<Region>(request.on[f]));
     const PlacedNodes on = placed_nodes(assembly, problem, place);
-    coordinates.nodes.insert(coordinates.nodes.end(), on.nodes.begin(), on.nodes.end());
+    coordinates.nodes.insert(coordinates.nodes.end(), on.mean.nodes.begin(), on.mean.nodes.end());
     const int before = n_held, on_index = static_cast<int>(f);
     const int first_row = static_cast<int>(coordinates.rows.size());
     if (motion == FaceMotion::mean) {
-      const std::vector<NodeSum> rows = mean_rows(on);
+      const std::vector<NodeSum> rows = mean_rows(on.mean);
       for (size_t d = 0; d < rows.size(); ++d) {
         const IndependentRows::Taken taken = independent.try_to_take(rows[d]);
         if (taken == IndependentRows::Taken::depends)
-          coordinates.dependent.push_back({on_index, -1, static_cast<int>(d), on.centre});
+          coordinates.dependent.push_back({on_index, -1, static_cast<int>(d), on.mean.centre});
         if (taken != IndependentRows::Taken::yes) continue;
-        coordinates.rows.push_back({on_index, -1, static_cast<int>(d), on.centre});
+        coordinates.rows.push_back({on_index, -1, static_cast<int>(d), on.mean.centre});
         of_rows.emplace_back(n_held++, static_cast<int>(coordinates.rows.size()) - 1, 1.0);
       }
     } else {
       const bool is_rigid = motion == FaceMotion::rigid;
-      const int n_motions = on.nodes.size() > 1 ? 6 : 3;  // a node turns about itself
-      for (int d = 0; d < n_motions && is_rigid; ++d) coordinates.rows.push_back({on_index, -1, d, on.centre});
+      const int n_motions = on.mean.nodes.size() > 1 ? 6 : 3;  // a node turns about itself
+      for (int d = 0; d < n_motions && is_rigid; ++d) coordinates.rows.push_back({on_index, -1, d, on.mean.centre});
       const int part = index_of(problem.substructures, std::visit([](const auto& o) { return o.part.get(); }, place));
-      for (size_t i = 0; i < on.nodes.size(); ++i)
+      for (size_t i = 0; i < on.mean.nodes.size(); ++i)
         for (int d = 0; d < 3; ++d) {
-          const IndependentRows::Taken taken = independent.try_to_take({{on.nodes[i], Vec3::Unit(d)}});
+          const IndependentRows::Taken taken = independent.try_to_take({{on.mean.nodes[i], Vec3::Unit(d)}});
           const bool is_free = taken == IndependentRows::Taken::yes;
           if (taken == IndependentRows::Taken::depends)
-            coordinates.dependent.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
+            coordinates.dependent.push_back({on_index, on.mean.nodes[i] - assembly.first_node[part], d, on.places[i]});
           if (!is_rigid && is_free) {
-            coordinates.rows.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
+            coordinates.rows.push_back({on_index, on.mean.nodes[i] - assembly.first_node[part], d, on.places[i]});
             of_rows.emplace_back(n_held, static_cast<int>(coordinates.rows.size()) - 1, 1.0);
           } else if (is_rigid && !is_free) {
             throw InputError(
@@ -167,7 +162,7 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
                     "or tied to another face, so that the face cannot move as a rigid body\n    take motion = \"mean\"",
                     request.name, label_of(place)));
           } else if (is_rigid) {
-            const Vec3 arm = on.places[i] - on.centre;
+            const Vec3 arm = on.places[i] - on.mean.centre;
             of_rows.emplace_back(n_held, first_row + d, 1.0);
             for (int turn = 0; turn + 3 < n_motions; ++turn)
               if (const double way = Vec3::Unit(turn).cross(arm)[d]; way != 0.0)

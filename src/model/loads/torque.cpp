@@ -14,8 +14,8 @@ namespace {
 Vec3 turn_of(const Vec3& axis, const LoadedNodes& nodes, const Vec3& centre) {
   Mat3 inertia = Mat3::Zero();
   for (Eigen::Index i = 0; i < nodes.positions.cols(); ++i) {
-    const Vec3 arm = nodes.positions.col(i) - centre;
-    inertia += nodes.weights[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    const Vec3 arm = nodes.positions.col(i) - centre, moment = nodes.moments.col(i) - nodes.weights[i] * centre;
+    inertia += arm.dot(moment) * Mat3::Identity() - arm * moment.transpose();
   }
   const Eigen::LDLT<Mat3> factor(inertia);
   return factor.rcond() > 1e-9 ? Vec3(factor.solve(axis).normalized()) : axis;
@@ -39,9 +39,8 @@ class Torque final : public Load {
       Points forces(3, nodes.positions.cols());
       double moment = 0.0;
       for (int i = 0; i < forces.cols(); ++i) {
-        const Vec3 arm = nodes.positions.col(i) - centre;
-        forces.col(i) = nodes.weights[i] * turn.cross(arm);
-        moment += nodes.weights[i] * turn.cross(arm).dot(axis.cross(arm));
+        forces.col(i) = turn.cross(Vec3(nodes.moments.col(i) - nodes.weights[i] * centre));
+        moment += forces.col(i).dot(axis.cross(Vec3(nodes.positions.col(i) - centre)));
       }
       return Points(forces / moment);
     });
