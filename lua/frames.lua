@@ -155,6 +155,9 @@ local function turn_motion(entry, p, given, line)
   end
 end
 
+-- What a call means that gives no directions.
+function frames.axes() return { { "x", { 1, 0, 0 } }, { "y", { 0, 1, 0 } }, { "z", { 0, 0, 1 } } } end
+
 -- Turns what a call says in its `frame` into the axes of the deck, in place.
 function frames.apply(entry, given, line)
   local p, names, kinds = made[given.frame], {}, {}
@@ -163,6 +166,7 @@ function frames.apply(entry, given, line)
   for _, argument in ipairs(entry.arguments) do
     local key, kind = argument[1], argument.in_frame
     if kind then names[#names + 1] = "'" .. key .. "'" end
+    if kind == "directions" and given[argument.with] ~= nil and given[key] == nil then given[key] = frames.axes() end
     if kind and given[key] ~= nil then
       given[key] = turns[kind](p, given[key], given)
       kinds[kind] = true

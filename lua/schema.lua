@@ -69,7 +69,7 @@ local function within()
 end
 
 local function points()
-  return { "points", type = "choice", choices = { "first", "second" }, default_doc = "the face within the other, else the one with fewer points",
+  return { "points", type = "choice", choices = { "first", "second" }, default_doc = "the face within the other, else the one with fewer points (bushing, viscous: more)",
            doc = "which face has the interface's points at its nodes, where the two meshes do not match" }
 end
 
@@ -1185,7 +1185,7 @@ words[10] = {
   {
     "ringdown", makes = "output",
     doc = "Frequency and damping of a vibration that decays freely, against its amplitude: a band of the history in a dynamic step, seen through a window of 4.44 / (width of the band) that moves along it, "
-      .. "a row a period until the amplitude is a thousandth of the first. Columns: time (s), amplitude (of the history), frequency (Hz), damping (ratio).",
+      .. "a row a period until the amplitude is a thousandth of the first; the summary ends where what iterations leave begins to show. Columns: time (s), amplitude (of the history), frequency (Hz), damping (ratio).",
     arguments = {
       name_of "output",
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "the history: one column, as with a `direction`" },

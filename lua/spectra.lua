@@ -1,5 +1,6 @@
 -- Spectra along several directions at one place, and what a deck without motion leaves out.
 local native = ...
+local frames = native.module "frames"
 local spectra = {}
 
 local made_for_spectra = setmetatable({}, { __mode = "k" })  -- histories
@@ -59,7 +60,7 @@ end
 function spectra.declare(entry, given, line)
   if given.of and given.on then fail(entry, line, "'of' and 'on' are mutually exclusive", "'of' a history, or 'on' a place, where it makes histories of its own") end
   if given.on then
-    given.directions = given.directions or { { "x", { 1, 0, 0 } }, { "y", { 0, 1, 0 } }, { "z", { 0, 0, 1 } } }
+    given.directions = given.directions or frames.axes()
     local list = at_place(entry, given, line)
     return list
   end

@@ -12,7 +12,9 @@
 #include "material/layup.hpp"
 #include "material/strip_stiffness.hpp"
 #include "mesh/face_nodes.hpp"
+#include "mesh/mean_nodes.hpp"
 #include "model/growth.hpp"
+#include "model/joint_path.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
 
@@ -187,6 +189,31 @@ void doubt_moduli(const Problem& problem) {
 }
 
 // Far more than a bolt can be stretched by.
+// How many times the second moment of area of a face its points have, about an axis of the deck: 1 + 2/n^2 for n facets
+// across.
+double spread_of_points(const Face& face) {
+  const Points& x = face.part->mesh->nodes;
+  const FaceNodes nodes = face_nodes(*face.part->mesh, face.facets());
+  const Mat3 exact = mean_nodes(nodes, x).inertia, at_nodes = mean_nodes(nodes.nodes, nodes.areas, x).inertia;
+  double most = 1.0;
+  for (int i = 0; i < 3; ++i)
+    if (exact(i, i) > 1e-6 * exact.trace()) most = std::max(most, at_nodes(i, i) / exact(i, i));
+  return most;
+}
+
+void doubt_isolators(const Problem& problem) {
+  constexpr double good = 1.15;
+  for (const InterfacePtr& interface : problem.interfaces) {
+    if (!is_isolator(*interface) || interface->means || interface->cyclic) continue;
+    const double spread = std::min(spread_of_points(interface->side_1), spread_of_points(interface->side_2));
+    if (spread > good)
+      doubt(problem, interface->origin,
+            fmt::format("{} acts at the nodes of few facets, and resists rotation {:.2g} times as much as a layer "
+                        "spread over the face; refine one of its faces (n facets across: 2/n^2 too much)",
+                        describe(*interface), spread));
+  }
+}
+
 void doubt_shortenings(const Problem& problem) {
   const double most = 0.02;  // of the longer of the two parts: steel is at 4 GPa
   for (const StepPtr& step : problem.steps)
@@ -376,6 +403,7 @@ void doubts(const Problem& problem) {
   if (moves) doubt_stiffening(problem);
   doubt_moduli(problem);
   doubt_layups(problem);
+  doubt_isolators(problem);
   doubt_shortenings(problem);
   doubt_symmetry(problem);
   doubt_sudden_rest(problem);

@@ -380,8 +380,15 @@ class AbaqusDeck : public ImportedDeck {
     const std::string rest = names_.of("rest", std::to_string(modes_.size() + 1));
     put("local {} = step.static{{ name = {}, supports = {{ {} }} }}  -- without loads", rest, lua_quoted(rest),
         comma_list(with_equations(supports)));
-    const int n = step.numbers.empty() ? 10 : static_cast<int>(std::clamp(step.numbers[0], 1.0, 2000.0));
-    modes_.push_back({rest, fmt::format("n = {}", n), with_equations(supports)});
+    const auto number = [&](size_t i) { return i < step.numbers.size() ? step.numbers[i] : 0.0; };
+    const double n = number(0), from = number(1), up_to = number(2);
+    if (from > 0.0) remarks_.push_back(fmt::format("{}: modes below its lowest frequency are here, too", step.where));
+    if (n > 0.0 && up_to > 0.0)
+      remarks_.push_back(fmt::format("{}: modes above its highest frequency are here, too", step.where));
+    modes_.push_back({rest,
+                      n > 0.0 || up_to <= 0.0 ? fmt::format("n = {:.0f}", n > 0.0 ? std::clamp(n, 1.0, 2000.0) : 10.0)
+                                              : fmt::format("up_to = {}/time", lua_number(up_to)),
+                      with_equations(supports)});
   }
 
   void write_problems(const std::vector<std::string>& supports_before) {

@@ -163,14 +163,12 @@ Mat3 NastranBodies::axes_of_bushing(const BulkCard& card, const BulkFields& fiel
 
 // CELAS1: number, property, node, component, node, component. CELAS2: the stiffness in place of the property.
 void NastranBodies::add_scalar(const BulkCard& card, const BulkFields& fields) {
-  double stiffness = 0.0;
-  if (card.name == "CELAS2")
-    stiffness = fields.real(2, "a stiffness");
-  else
-    stiffness = BulkFields(model_.file(),
-                           property("PELAS", fields.whole_or(2, fields.whole(1, "a number"), "a property"), fields))
-                    .real(2, "a stiffness");
-  if (fields.has(7) && card.name == "CELAS2" && fields.real(7, "a damping") != 0.0) fields.fail("structural damping");
+  const bool is_in_card = card.name == "CELAS2";
+  const BulkFields values(
+      model_.file(),
+      is_in_card ? card : property("PELAS", fields.whole_or(2, fields.whole(1, "a number"), "a property"), fields));
+  const double stiffness = values.real(2, "a stiffness");
+  if (values.real_or(is_in_card ? 7 : 3, 0.0, "a damping") != 0.0) values.fail("structural damping GE of a spring");
   Vec3 along = Vec3::Zero();
   bool is_rotation = false;
   std::vector<End> ends;

@@ -19,6 +19,9 @@ struct MeetingOptions {
   // The law has a normal of its own: where faces turn around a sharp edge each smooth surface has points there with its
   // own normal, not one point with the mean.
   bool splits_at_edges = false;
+  // The law has a stiffness or a damping of its own, spread over the face: of two faces alike the finer one has the
+  // points.
+  bool is_layer = false;
 };
 
 }  // namespace dygita

@@ -76,7 +76,7 @@ bool is_second_chosen(const Census& first, const Census& second, const MeetingOp
     return is_second_within != is_outer_enough;
   }
   if (std::abs(first.n_points - second.n_points) > fewer_points * std::min(first.n_points, second.n_points))
-    return second.n_points < first.n_points;
+    return (second.n_points < first.n_points) != options.is_layer;
   return options.is_second_preferred;
 }
 

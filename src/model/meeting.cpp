@@ -4,6 +4,7 @@
 
 #include "law/law.hpp"
 #include "model/extent.hpp"
+#include "model/joint_path.hpp"
 
 namespace dygita {
 
@@ -23,9 +24,9 @@ Meeting meeting_of(const Interface& interface, double within) {
   const auto rank = [](const Face& face) {
     return std::pair(face.part->material.density * face.part->material.p_wave_speed(), face.label());
   };
-  const MeetingOptions options{interface.within.value_or(within), interface.points,
-                               rank(interface.side_2) < rank(interface.side_1), !interface.law->is_tie(),
-                               !interface.law->is_tie()};
+  const MeetingOptions options{
+      interface.within.value_or(within), interface.points,         rank(interface.side_2) < rank(interface.side_1),
+      !interface.law->is_tie(),          !interface.law->is_tie(), is_isolator(interface)};
   try {
     const auto [side_1, side_2] = placed_sides(interface);
     return {side_1, side_2, options};

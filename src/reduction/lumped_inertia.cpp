@@ -16,6 +16,7 @@
 #include "mesh/shape_functions.hpp"
 #include "model/joint_path.hpp"
 #include "model/output.hpp"
+#include "model/places.hpp"
 #include "model/support.hpp"
 #include "numerics/dense.hpp"
 
@@ -142,7 +143,7 @@ std::vector<Whole> what_turns_as_a_whole(const Problem& problem) {
     if (is_bond(*interface)) bonded.join(index(interface->side_1.part.get()), index(interface->side_2.part.get()));
   std::set<int> held;
   for (const StepPtr& step : problem.steps) {
-    if (step->is_static && problem.steps.size() > 1) continue;
+    if (step->is_static && has_dynamic_step(problem)) continue;
     for (const SupportPtr& support : supports_of(problem, *step))
       if (!support->kind->law())
         for (const FaceOrRegion& place : support->on) held.insert(bonded.root(index(&part_of(place))));

@@ -191,5 +191,57 @@ TEST(Bushings, go_to_the_matrices_of_a_superelement) {
   }
 }
 
+// A rigid block of 20 mm on a layer of 5e9 Pa/m twisted about y: k a^4/12 over all of its face, whichever face is fine.
+TEST(Bushing, rocks_as_a_layer_does_whichever_face_is_fine) {
+  const char* const rocking = R"(
+local p = param{ block = 1, base = 1 }
+local stiff = material.elastic{ name = "stiff", young = 1e12, poisson = 0.3, density = 4000 }
+local base = substructure{ name = "base", material = stiff, mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { p.base, p.base, 1 } } }
+local block = substructure{ name = "block", material = stiff, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { p.block, p.block, 4 }, origin = { 0, 0, 10*mm } } }
+local layer = interface.bushing{ name = "layer", between = { base:face "zmax", block:face "zmin" }, normal = 5e9, tangential = 2.5e9 }
+problem{ name = "rocking", substructures = { base, block }, interfaces = { layer }, supports = { support.fixed{ name = "ground", on = base:face "zmin" } },
+  steps = { step.static{ name = "twisted", loads = { load.torque{ on = block:face "zmax", axis = { 0, 1, 0 }, history = 0.01 } } } },
+  outputs = { output.history{ name = "top", on = block:face "zmax", quantity = "displacement", direction = { 1, 0, 0 } } } }:run{}
+)";
+  const double by_hand = 0.01 / (5e9 * std::pow(0.02, 4) / 12) * 0.02;
+  const auto turned = [&](const char* block, const char* base, bool is_told) {
+    testing::internal::CaptureStderr();
+    const DeckRun run = run_text(rocking, {{"block", block}, {"base", base}}, 1).at(0);
+    const bool said = testing::internal::GetCapturedStderr().find("resists rotation 3 times") != std::string::npos;
+    EXPECT_EQ(said, is_told);
+    return run.column("top", "displacement").back() / by_hand;
+  };
+  EXPECT_NEAR(turned("8", "8", false), 1 / (1 + 2.0 / 64), 0.01);
+  EXPECT_NEAR(turned("8", "1", false), 1 / (1 + 2.0 / 64), 0.01);
+  EXPECT_NEAR(turned("1", "8", false), 1 / (1 + 2.0 / 64), 0.01);
+  EXPECT_NEAR(turned("1", "1", true), 1.0 / 3.0, 0.01);
+}
+
+// A mass on a spring of loss 0.06 has half of that at any amplitude; what the iterations leave shows at small ones.
+TEST(Bushing, rings_down_with_half_its_loss_as_far_as_it_is_told) {
+  const DeckRun run = run_text(R"(
+local stiff = material.elastic{ name = "stiff", young = 1e12, poisson = 0.3, density = 4000 }
+local base = substructure{ name = "base", material = stiff, integration = "implicit", mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 2, 2, 1 } } }
+local mass = substructure{ name = "mass", material = stiff, integration = "implicit", mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 2, 2, 2 }, origin = { 0, 0, 10*mm } } }
+local f = math.sqrt(2e6 / 0.032) / 2 / math.pi
+local layer = interface.bushing{ name = "layer", between = { base:face "zmax", mass:face "zmin" }, normal = 5e9, tangential = 2.5e9, loss = 0.06, frequency = f }
+local pull = step.static{ name = "pull", loads = { load.force{ on = mass:face "zmax", z = 100 } } }
+local ring = step.dynamic{ name = "ring", after = pull, duration = 60*ms, dt = 20*us, loads = { load.force{ on = mass:face "zmax", z = 0 } } }
+local u = output.history{ name = "u", on = mass:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
+problem{ name = "ring", substructures = { base, mass }, interfaces = { layer }, supports = { support.fixed{ name = "ground", on = base:face "zmin" } }, steps = { pull, ring },
+  outputs = { u, output.ringdown{ name = "down", of = u, band = { 0.7*f, 1.4*f } } } }:run{}
+)",
+                               {}, 1)
+                          .at(0);
+  const std::string line = run.findings("down").lines.at(0);
+  std::cout << line << "\n";
+  EXPECT_NE(line.find("2.99 % of critical damping at 2.76"), std::string::npos);
+  EXPECT_NE(line.find("3 % of critical damping at 3.7"), std::string::npos);
+  EXPECT_NE(line.find("uncertain, since iterations leave"), std::string::npos);
+  const std::vector<double>&amplitude = run.column("down", "amplitude"), &damping = run.column("down", "damping");
+  for (size_t i = 0; i < damping.size() && amplitude[i] > 0.013 * amplitude[0]; ++i)
+    EXPECT_NEAR(damping[i], 0.03, 6e-4);
+}
+
 }  // namespace
 }  // namespace dygita::test::bushings_tests

@@ -93,5 +93,18 @@ TEST(SlowTurning, is_told_of_a_block_on_springs) {
   EXPECT_GT(worst, 0.98 / std::sqrt(1.8));
 }
 
+TEST(SlowTurning, is_not_told_of_a_block_that_is_held_in_all_its_static_steps) {
+  testing::internal::CaptureStderr();
+  run_text(R"(
+local alu = material.elastic{ name = "alu", young = 70*GPa, poisson = 0.3, density = 2800 }
+local block = substructure{ name = "block", material = alu, mesh = mesh.box{ size = { 20*mm, 20*mm, 60*mm }, cells = { 2, 2, 6 } } }
+local first = step.static{ name = "first" }
+problem{ name = "held", substructures = { block }, supports = { support.fixed{ name = "ground", on = block:face "zmin" } },
+  steps = { first, step.static{ name = "second", after = first } }, outputs = { output.modes{ name = "modes", n = 4 } } }:run{}
+)",
+           {}, 1);
+  EXPECT_EQ(testing::internal::GetCapturedStderr().find("turns as a whole"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace dygita::test::slow_turning_tests

@@ -311,7 +311,8 @@ end
 local tip_spectra = output.srs{ name = "tip", on = right, frame = f, directions = { radial = { 1, 0, 0 }, axial = { 0, 0, 1 } }, from = 1*kHz,
   specification = { radial = { { 1000, 100*g0 }, { 1e4, 100*g0 } }, axial = { { 1000, 5000*g0 }, { 1e4, 5000*g0 } } }, margin = { axial = 3 } }
 local global = output.srs{ name = "global", on = right, directions = "xz", from = 1*kHz }
-local result = problem{ name = "turned", substructures = { low, high }, interfaces = { bond }, supports = { base }, steps = steps, outputs = { u, tip_spectra, global } }:run{}
+local axes = output.srs{ name = "axes", on = right, frame = f, from = 1*kHz }
+local result = problem{ name = "turned", substructures = { low, high }, interfaces = { bond }, supports = { base }, steps = steps, outputs = { u, tip_spectra, global, axes } }:run{}
 print(("exceedance: %g dB"):format(result[tip_spectra.axial].exceedance), result[tip_spectra.histories.axial].max, result[global.z].maximax.max)
 )";
 
@@ -327,6 +328,8 @@ TEST(Frame, moves_a_whole_scene_and_changes_nothing_in_it) {
   }
   for (const char* name : {"tip axial", "tip radial"})
     EXPECT_LT(largest_move(still.table(name), moved.table(name)), 1e-3) << name;
+  EXPECT_EQ(largest_move(moved.table("axes z"), moved.table("tip axial")), 0.0);
+  EXPECT_EQ(largest_move(moved.table("axes x"), moved.table("tip radial")), 0.0);
   // Along the axes of the deck it is another motion, and without a frame they are those of the part at rest.
   EXPECT_LT(largest_move(still.table("global z"), still.table("tip axial")), 1e-12);
   EXPECT_GT(largest_move(moved.table("global z"), moved.table("tip axial")), 0.5);
@@ -351,7 +354,7 @@ TEST(Spectrum, of_a_problem_without_motion_is_left_out_with_a_warning_and_reads_
   const std::string printed = testing::internal::GetCapturedStdout(), warned = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(run.result->converged);
   EXPECT_NE(warned.find("problem 'turned' has no dynamic step: its spectra are omitted and read as nan: 'tip axial', "
-                        "'tip radial', 'global x', 'global z'"),
+                        "'tip radial', 'global x', 'global z', 'axes x', 'axes y' and 1 more"),
             std::string::npos)
       << warned;
   EXPECT_EQ(run.problem.outputs.size(), 3u);  // the displacements

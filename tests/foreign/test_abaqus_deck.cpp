@@ -276,6 +276,12 @@ TEST(AbaqusDeck, has_steps_of_motion_modes_and_amplitudes) {
   const std::string modes = imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*FREQUENCY\n7\n*END STEP\n");
   expect_in(modes, "steps = { rest_1 }, outputs = { output.modes{ name = \"modes\", n = 7 } }");
   EXPECT_EQ(modes.find("NOT TRANSLATED"), std::string::npos) << modes;
+  const auto of = [](const std::string& numbers) {
+    return imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*FREQUENCY\n" + numbers + "\n*END STEP\n");
+  };
+  expect_in(of("7, 2000., 9000."), "modes below its lowest frequency are here, too");
+  expect_in(of("7, , 9000."), "modes above its highest frequency are here, too");
+  expect_in(of(", , 9000."), "output.modes{ name = \"modes\", up_to = 9000/time }");
 }
 
 TEST(AbaqusDeck, holds_a_place_once_in_all_directions_that_several_lines_hold) {

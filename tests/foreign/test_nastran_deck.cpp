@@ -133,6 +133,7 @@ TEST(NastranDeck, has_springs_on_nodes_and_their_means) {
   expect_in(deck, "on = { part_low:region \"celas2 31\" }, z = 400*force/length }");
   expect_in(deck, "x = 50*force/length }");
   expect_in(deck, "supports = { support_spc1_37, spring_1, spring_2, spring_3 }");
+  expect_in(imported("", "PELAS,7,50.,.2\nCELAS1,93,7,2,1\nSPC1,1,123,4\n"), "structural damping GE of a spring");
   const std::string equal = "PBUSH,5,K,10.,10.,10.\n";
   expect_in(imported("", equal + "CBUSH,90,5,1,2\n"), "its nodes are not at one place");
   expect_in(imported("", "PBUSH,5,K,10.,20.,30.\nCBUSH,90,5,1\n"), "unlike stiffness");
