@@ -1,6 +1,7 @@
 #include "files/replacement.hpp"
 
 #include <fcntl.h>
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "files/manifest.hpp"
 
 namespace dygita {
@@ -28,7 +30,8 @@ bool exchange(const fs::path& a, const fs::path& b) {
   return false;
 }
 
-// What others put beside the old results goes where it was; folders of ours that it lies in are there again.
+// What others put beside the old results goes where it was; folders of ours that it lies in are there again. Nothing
+// goes through a link. False: something has a new result in its place, or could not be moved, and is still in `from`.
 bool carry_over(const fs::path& from, const fs::path& to) {
   std::error_code error;
   bool is_done = true;
@@ -37,8 +40,10 @@ bool carry_over(const fs::path& from, const fs::path& to) {
     if (!fs::exists(fs::symlink_status(target))) {
       fs::rename(entry.path(), target, error);
       is_done = is_done && !error;
-    } else if (fs::is_directory(entry.symlink_status()) && fs::is_directory(target)) {
+    } else if (fs::is_directory(entry.symlink_status()) && fs::is_directory(fs::symlink_status(target))) {
       is_done = carry_over(entry.path(), target) && is_done;
+    } else {
+      is_done = false;
     }
   }
   return is_done;
@@ -70,7 +75,10 @@ void Replacement::commit(const std::string& dropped) {
   std::error_code error;
   fs::remove(work_ / Manifest::file_name, error);
   if (!dropped.empty()) fs::remove_all(work_ / dropped, error), fs::remove_all(work_ / (dropped + ".parts"), error);
-  if (carry_over(work_, directory_)) fs::remove_all(work_, error);
+  if (carry_over(work_, directory_))
+    fs::remove_all(work_, error);
+  else
+    warn(fmt::format("'{}' keeps what was beside the old results under names that new ones have", work_.string()));
 }
 
 }  // namespace dygita

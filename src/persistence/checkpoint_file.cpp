@@ -32,6 +32,19 @@ void code_missed(Coder& code, Missed& missed) {
   if (has_halving) missed.halving = halving;
 }
 
+// A file of several names, as in a backup by hard links, is copied, so that the others keep what they have.
+void leave_other_names(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error, ignored;
+  if (fs::hard_link_count(path, error) <= 1 || error) return;
+  const fs::path copy = path.string() + ".tmp";
+  fs::remove(copy, ignored);
+  if (fs::copy_file(path, copy, error)) fs::rename(copy, path, error);
+  if (error)
+    throw InputError(
+        fmt::format("'{}' is a second name of another file, and cannot be copied: {}", path.string(), error.message()));
+}
+
 bool is_sound(const TrailEntry& entry) {
   return entry.runs.fit(entry.q.size()) &&
          (entry.uncorrected.size() == 0 || entry.uncorrected.size() == entry.q.size());
@@ -120,6 +133,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
   require_file(path_);
   if (std::filesystem::is_symlink(path_))  // to be written to, as the run continues
     throw InputError(fmt::format("'{}' is a link, and not a checkpoint of dygita", path_.string()));
+  leave_other_names(path_);
   file_.reset(std::fopen(path_.c_str(), "r+b"));
   if (!file_) throw InputError(fmt::format("cannot read '{}': {}", path_.string(), std::strerror(errno)));
   std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);

@@ -20,6 +20,40 @@ void put_results(const fs::path& folder, const std::string& text) {
   }
 }
 
+// A killed run's folder of new results may have been prepared by somebody: nothing is moved through its links.
+TEST(Replacement, moves_nothing_through_a_link_in_what_a_killed_run_left) {
+  const Scratch scratch;
+  const fs::path folder = scratch.path() / "base", elsewhere = scratch.path() / "elsewhere";
+  put_results(folder, "old");
+  fs::create_directories(folder / "notes");
+  put(folder / "notes/script.py", "theirs");
+  fs::create_directories(elsewhere);
+  fs::create_directories(scratch.path() / ".base.continued");
+  fs::create_directory_symlink(elsewhere, scratch.path() / ".base.continued/notes");
+  Replacement replacement(folder);
+  put_results(replacement.work(), "new");
+  replacement.commit();
+  EXPECT_TRUE(fs::is_empty(elsewhere));
+  EXPECT_EQ(text_of(folder / "tip.csv"), "new");
+  EXPECT_EQ(text_of(scratch.path() / ".base.continued/notes/script.py"), "theirs");
+}
+
+TEST(Replacement, keeps_a_folder_of_the_users_that_has_the_name_of_a_result) {
+  const Scratch scratch;
+  const fs::path folder = scratch.path() / "base";
+  put_results(folder, "old");
+  fs::remove(folder / "tip.csv");
+  fs::create_directories(folder / "tip.csv");
+  put(folder / "tip.csv/mine", "mine");
+  Replacement replacement(folder);
+  put_results(replacement.work(), "new");
+  testing::internal::CaptureStderr();
+  replacement.commit();
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("keeps what was beside the old results"), std::string::npos);
+  EXPECT_EQ(text_of(folder / "tip.csv"), "new");
+  EXPECT_EQ(text_of(scratch.path() / ".base.continued/tip.csv/mine"), "mine");
+}
+
 TEST(Replacement, takes_the_place_of_the_old_results_and_keeps_what_others_put_there) {
   const Scratch scratch;
   const fs::path folder = scratch.path() / "base";

@@ -49,6 +49,24 @@ TEST_F(CheckpointLinks, in_the_place_of_one_are_refused) {
   EXPECT_EQ(fs::file_size(others_), size);
 }
 
+// As a backup by hard links has it.
+TEST_F(CheckpointLinks, of_another_name_leave_that_as_it_is) {
+  { const CheckpointFile checkpoint(path_, CheckpointIdentity{}, 60.0); }
+  const fs::path backup = folder_ / "backup";
+  fs::create_hard_link(path_, backup);
+  const auto size = fs::file_size(backup);
+  {
+    CheckpointFile checkpoint(path_, 60.0);
+    TrailEntry entry;
+    entry.q = entry.uncorrected = Vec::Ones(7);
+    entry.moved = {1, 0};
+    checkpoint.leave(entry);
+    checkpoint.sync();
+  }
+  EXPECT_EQ(fs::file_size(backup), size);
+  EXPECT_TRUE(CheckpointFile(path_, 60.0).has_entries());
+}
+
 // Three ranks of seven unknowns and four pieces: what each leaves of an increment.
 class CheckpointInParts : public CheckpointLinks {
  protected:
