@@ -19,9 +19,24 @@ bool is_fit_for_a_file(const std::string& name) {
          });
 }
 
+// Records are in UTF-8, and would name another file.
+bool is_utf8(const std::string& text) {
+  size_t more = 0;  // bytes of the character that are to come
+  for (const unsigned char c : text) {
+    const bool is_within = (c & 0xc0) == 0x80;
+    if (is_within != (more > 0)) return false;
+    if (is_within)
+      --more;
+    else if (c >= 0x80)
+      more = c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : text.size();
+  }
+  return more == 0;
+}
+
 // besides: characters that this kind of name may have, of which no file is called after.
 void has_name(const Problem& problem, const Named& object, const std::string& what, const std::string& besides = "") {
   if (object.name.empty()) fail(problem, object.origin, what + " has no name");
+  if (!is_utf8(object.name)) fail(problem, object.origin, what + ": its name is not UTF-8", "save the deck as UTF-8");
   std::string name = object.name;
   std::erase_if(name, [&](char c) { return besides.find(c) != std::string::npos; });
   if (name.empty() || !is_fit_for_a_file(name)) {
@@ -66,6 +81,9 @@ void outputs_keep_apart(const Problem& problem) {
       if (output->name == "bolts" && tightens_bolts(problem))
         fail(problem, output->origin, "output 'bolts' would overwrite bolts.csv",
              "'bolts' is the name of the table of all tightened interfaces");
+      if (output->name.ends_with(".vtu") || output->name.ends_with(".pvtu"))
+        fail(problem, output->origin, "output '" + output->name + "' is called as a frame's file may be",
+             "no name of an output ends with '.vtu'");
       tables.push_back(output);
     } else if (!seen.insert(output->word).second) {
       fail(problem, output->origin, "'outputs' has more than one output." + output->word);

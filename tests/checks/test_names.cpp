@@ -76,6 +76,25 @@ TEST_F(Names, of_the_tables_of_the_run_are_taken) {
             "    'energy' and 'convergence' are the names of tables of the run itself");
 }
 
+TEST_F(Names, of_frames_are_taken) {
+  above->name = "lower_00000.vtu";
+  EXPECT_EQ(complaint(),
+            "deck.lua:50: problem 'bolted': output 'lower_00000.vtu' is called as a frame's file may be\n"
+            "    no name of an output ends with '.vtu'");
+}
+
+TEST_F(Names, are_utf8) {
+  for (const char* good : {"Flansch \xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x94\xa9", "plain"}) {
+    above->name = good;
+    EXPECT_EQ(complaint(), "") << good;
+  }
+  for (const char* bad : {"\xff", "a\xc3", "\xc3(", "\xa9", "\xe2\x82", "\xc0\xaf"}) {
+    above->name = bad;
+    EXPECT_EQ(complaint(), "deck.lua:50: problem 'bolted': output: its name is not UTF-8\n    save the deck as UTF-8")
+        << bad;
+  }
+}
+
 TEST_F(Names, are_not_needed_by_outputs_that_come_once) {
   problem.outputs.push_back(output_double("", 52));
   EXPECT_EQ(complaint(), "");
