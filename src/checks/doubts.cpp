@@ -1,3 +1,5 @@
+// What a problem says that its author may not mean: warnings before anything is computed. A list of short doubts that
+// have nothing in common but being asked in one order; hence longer than most.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>

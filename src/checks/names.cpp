@@ -82,8 +82,8 @@ void outputs_keep_apart(const Problem& problem) {
         fail(problem, output->origin, "output 'bolts' would overwrite bolts.csv",
              "'bolts' is the name of the table of all tightened interfaces");
       if (output->name.ends_with(".vtu") || output->name.ends_with(".pvtu"))
-        fail(problem, output->origin, "output '" + output->name + "' is called as a frame's file may be",
-             "no name of an output ends with '.vtu'");
+        fail(problem, output->origin, "output '" + output->name + "' has the name of a frame's file",
+             "the name of an output does not end with '.vtu' or '.pvtu'");
       tables.push_back(output);
     } else if (!seen.insert(output->word).second) {
       fail(problem, output->origin, "'outputs' has more than one output." + output->word);

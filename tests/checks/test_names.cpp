@@ -79,8 +79,8 @@ TEST_F(Names, of_the_tables_of_the_run_are_taken) {
 TEST_F(Names, of_frames_are_taken) {
   above->name = "lower_00000.vtu";
   EXPECT_EQ(complaint(),
-            "deck.lua:50: problem 'bolted': output 'lower_00000.vtu' is called as a frame's file may be\n"
-            "    no name of an output ends with '.vtu'");
+            "deck.lua:50: problem 'bolted': output 'lower_00000.vtu' has the name of a frame's file\n"
+            "    the name of an output does not end with '.vtu' or '.pvtu'");
 }
 
 TEST_F(Names, are_utf8) {
