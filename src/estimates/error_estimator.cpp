@@ -132,6 +132,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   carried_.emplace(start);
   linked_.begin_step(start);
   strain_at_stress_ = 0.0;
+  springs_.begin(start.state.energies.stored);
   bank_.emplace(start.model.is_tuned());
   dt_ = start.interval();
   total_mass_ = 0.0;
@@ -215,8 +216,10 @@ void ErrorEstimator::sample_strain(const Instant& instant, bool is_regular) {
   moving_ += kinetic_now_;
   strained_ += now.of_motion;
   rate_ += now.of_velocities;
+  sprung_ += springs_.energy();
+  sprung_rate_ += springs_.energy_of_velocities(dt_);
   ++n_strained_;
-  shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.of_motion);
+  shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.of_motion + springs_.energy());
   for (size_t k = 0; k < parts_.size(); ++k)
     parts_[k].energy = std::max(parts_[k].energy, parts_[k].kinetic + now.of_parts[k]);
   // A short pulse has its stress between the regular instants.
@@ -228,6 +231,7 @@ void ErrorEstimator::sample_strain(const Instant& instant, bool is_regular) {
 void ErrorEstimator::sample_stress(const Instant& instant, double strain, double weight) {
   lumping_sum_ += weight * lumping_energy(instant);
   kinetic_sum_ += weight * kinetic_now_;
+  sprung_sum_ += weight * springs_.energy();
   const StressEnergies now = stress_energies(instant, strain);
   stress_energy_ = std::max(stress_energy_, now.error());
   sums_.within += weight * now.within;
@@ -244,6 +248,7 @@ void ErrorEstimator::accept(const Instant& instant) {
                                  : instant.model.phase_factor();
   dynamic_.interface_energy += instant.interface_energy;
   const Energies& energies = instant.state.energies;
+  springs_.accept(energies.stored);
   linked_.accept(instant);
   take_velocities(instant);
   if (instant.work_left) watch_parts(instant);
@@ -293,8 +298,10 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   if (strained_ < n_strained_ * at_rest_) return estimate;  // of what moves as a whole there is only rounding
   // Rayleigh's quotient of the velocities, over the energy of which there is less: strain, of what moves as a whole, or
   // kinetic, of what swings about another place than that of the start: let go there, it has three times as much strain
-  // energy on average. With more than that a load holds it strained, and the time is the load's.
-  const double frequency2 = rate_ / std::max(std::min(moving_, strained_), strained_ / 3.0);
+  // energy on average. With more than that a load holds it strained, and the time is the load's. Springs store as
+  // strain does.
+  const double held = strained_ + sprung_;
+  const double frequency2 = (rate_ + sprung_rate_) / std::max(std::min(moving_, held), held / 3.0);
   const double steps2 = frequency2 * dt_ * dt_;  // (w dt)^2
   estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
   const FrequencyShares mesh = frequency_shares();

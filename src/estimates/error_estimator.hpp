@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "estimates/octaves.hpp"
+#include "estimates/spring_energy.hpp"
 #include "fem/free_surface.hpp"
 #include "watch/carried_motion.hpp"
 #include "watch/linked_parts.hpp"
@@ -150,6 +151,9 @@ class ErrorEstimator {
   // (J/s^2).
   double moving_ = 0.0, strained_ = 0.0, rate_ = 0.0;
   int n_strained_ = 0;
+  // Of springs (law, support) in the motion: now; sums over the same instants as moving_ and rate_; as kinetic_sum_.
+  SpringEnergy springs_;
+  double sprung_ = 0.0, sprung_rate_ = 0.0, sprung_sum_ = 0.0;
   double strain_at_stress_ = 0.0;  // J, of the step, the largest that the stress error has been sampled with
 };
 

@@ -132,15 +132,16 @@ void ErrorEstimator::find_free_surfaces(const Instant& start) {
 // and go with the square of the frequency; in a bar that twists they are the same at all frequencies.
 ErrorEstimator::FrequencyShares ErrorEstimator::frequency_shares() const {
   constexpr double most = 0.75;  // of the energy; with more there is nothing to tell
-  const double dispersion = 0.5 * sums_.within / sums_.strain;
-  const double stiff = std::min(most, sums_.error() / sums_.strain);
+  const double held = sums_.strain + sprung_sum_;
+  const double dispersion = 0.5 * sums_.within / held;
+  const double stiff = std::min(most, sums_.error() / held);
   // Of what spins, flies or slides as a whole the masses have no frequency to change, and what a load holds strained
   // has little motion: the shares are of the same motion where both energies are alike, to three times what is let go
   // has.
-  const bool swings = std::max(moving_, strained_) < 4.0 * std::min(moving_, strained_);
+  const double stored = strained_ + sprung_;
+  const bool swings = std::max(moving_, stored) < 4.0 * std::min(moving_, stored);
   const double heavy = swings && kinetic_sum_ > 0.0 ? std::min(most, lumping_sum_ / kinetic_sum_) : 0.0;
-  const double all =
-      std::max(0.5 * sums_.error() / sums_.strain, std::abs(std::sqrt((1.0 - heavy) / (1.0 - stiff)) - 1.0));
+  const double all = std::max(0.5 * sums_.error() / held, std::abs(std::sqrt((1.0 - heavy) / (1.0 - stiff)) - 1.0));
   return {dispersion, all - dispersion};
 }
 

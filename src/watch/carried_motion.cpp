@@ -5,6 +5,26 @@
 
 namespace dygita {
 
+namespace {
+
+// Directions in which springs to the ground turn a motion of this mass (kg) back within a step of `duration` (s): what
+// swings on them is the shock's. Softer ones, as cords that hang a free assembly, let it go where it goes.
+Mat3 held_by_springs(const Surface& surface, double mass, double duration) {
+  Mat3 held = Mat3::Zero();
+  const Law& law = surface.declared_law();
+  const Tangent tangent = law.tangent(law.initial(), true);
+  for (int i = 0; i < surface.n_points(); ++i)
+    for (int d = 0; d < 3; ++d) {
+      const double stiffness = tangent.stiffness[d] * surface.facing.areas[i];
+      if (!surface.facing.acts_along(i, d) || stiffness * duration * duration < mass) continue;
+      const Vec3 axis = surface.facing.frames[static_cast<size_t>(i)].col(d);
+      held += axis * axis.transpose();
+    }
+  return held;
+}
+
+}  // namespace
+
 CarriedMotion::CarriedMotion(const Instant& start) {
   const StepModel& model = start.model;
   const auto n_motions = static_cast<Eigen::Index>(model.conditions.motions.size());
@@ -25,10 +45,14 @@ CarriedMotion::CarriedMotion(const Instant& start) {
     const Eigen::Matrix3Xd resisted = part->mesh->inside->resisted_motions(part->mesh->nodes).topRows<3>();
     held += resisted * resisted.transpose();
   }
-  for (const Surface& surface : *model.surfaces)
-    if (surface.wall && surface.is_on_ground && !surface.facing.is_of_sums() &&
-        takes_part(*model.problem, *model.step, surface))
+  for (const auto& piece : model.pieces) mass_ += piece->mass();
+  for (const Surface& surface : *model.surfaces) {
+    if (!surface.wall || !surface.is_on_ground || !takes_part(*model.problem, *model.step, surface)) continue;
+    if (!surface.facing.is_of_sums())
       held += surface.facing.normals * surface.facing.normals.transpose();
+    else if (!surface.is_of_rotation)
+      held += held_by_springs(surface, mass_, start.interval() * model.step->n_increments());
+  }
   for (const InterfacePtr& interface : model.problem->interfaces)  // what other sectors push adds up along the axis
     if (interface->cyclic) held += Mat3::Identity() - interface->cyclic->along * interface->cyclic->along.transpose();
   for (const SupportPtr& support : supports_of(*model.problem, *model.step))
@@ -40,7 +64,6 @@ CarriedMotion::CarriedMotion(const Instant& start) {
     held_inverse_ += axis * axis.transpose() / axes.values[d];
     free_ -= axis * axis.transpose();
   }
-  for (const auto& piece : model.pieces) mass_ += piece->mass();
 }
 
 Vec3 CarriedMotion::at(const Instant& instant, const std::function<Vec3()>& momentum) const {

@@ -9,7 +9,7 @@ namespace dygita {
 
 // Velocity (m/s) that a dynamic step's motions are measured against. Along directions that supports, walls or
 // prescribed motions hold it is theirs, as far as they all move alike, else zero; along others that of the centre of
-// mass.
+// mass. Springs to the ground hold where they turn the assembly back within the step.
 class CarriedMotion {
  public:
   explicit CarriedMotion(const Instant& start);

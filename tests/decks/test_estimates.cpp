@@ -338,6 +338,62 @@ TEST_F(Pulse, of_a_block_that_spins_is_of_its_own_frequencies) {
     }
 }
 
+// A block on springs to the ground, which a push makes swing along them: rigid but for 1e-4 of the energy.
+DeckRun swinging(const char* settings) {
+  return std::move(run_text(std::string(settings) + R"(
+local aluminium = material.elastic{ name = "aluminium", young = 70*GPa, poisson = 0.3, density = 2700 }
+local block = substructure{ name = "block", material = aluminium,
+  mesh = mesh.box{ size = { 100*mm, 80*mm, 60*mm }, cells = { 3, 3, 3 } } }
+local parts, interfaces, supports = { block }, {}, {}
+if mount == "spring" then
+  supports[1] = support.spring{ name = "mount", on = block:face "zmin", x = k, y = k, z = k,
+    about_x = k / 100, about_y = k / 100, about_z = k / 100 }
+elseif mount == "bushing" then
+  local floor = substructure{ name = "floor", material = aluminium,
+    mesh = mesh.box{ origin = { 0, 0, -20*mm }, size = { 100*mm, 80*mm, 20*mm }, cells = { 3, 3, 2 } } }
+  parts[2], supports[1] = floor, support.fixed{ name = "under", on = floor:face "zmin" }
+  interfaces[1] = interface.bushing{ name = "mount", between = { floor:face "zmax", block:face "zmin" },
+    normal = k / 0.008, tangential = k / 0.008 }
+end
+local push = step.dynamic{ name = "push", duration = duration, dt = duration / 400, loads = {
+  load.pressure{ on = block:face "zmax", history = history.half_sine{ peak = 0.1*MPa, duration = duration / 20 } } } }
+problem{ name = "swinging", substructures = parts, interfaces = interfaces, supports = supports, steps = { push },
+  outputs = { output.energy{} } }:run{}
+)",
+                            {}, 1)
+                       .front());
+}
+
+// Its frequency is that of the springs, the time step turns that, and the mesh has nothing to do with it.
+TEST(Swinging, on_springs_is_told_the_errors_of_its_own_frequency) {
+  const double truth = std::sqrt(1e6 / (2700 * 0.1 * 0.08 * 0.06)) / (2 * std::numbers::pi);
+  for (const std::string mount : {"spring", "bushing"}) {
+    SCOPED_TRACE(mount);
+    const std::map<std::string, double> figures =
+        swinging(("local mount, k, duration = '" + mount + "', 1e6, 40*ms").c_str()).figures();
+    EXPECT_NEAR(figures.at("mean frequency of the motion [Hz]"), truth, 0.06 * truth);
+    EXPECT_LT(figures.at("error estimate, frequency, mesh [%]"), 0.01);
+    EXPECT_LT(figures.at("error estimate, amplitude, mesh [%]"), 0.5);
+    const double turned = 2 * std::numbers::pi * truth * 1e-4;
+    EXPECT_NEAR(figures.at("error estimate, frequency, time step [%]"), 100 * turned * turned / 12,
+                0.15 * 100 * turned * turned / 12);
+    EXPECT_GT(figures.at("error estimate, time step [%]"), 100 * 400 * std::pow(turned, 3) / 12);
+  }
+}
+
+// Cords that hang a free assembly hold nothing within a shock of theirs.
+TEST(Swinging, on_cords_is_told_what_it_is_on_cords_that_hold_nothing) {
+  const std::map<std::string, double> free = swinging("local mount, k, duration = 'spring', 1e-6, 0.4*ms").figures(),
+                                      hung = swinging("local mount, k, duration = 'spring', 100, 0.4*ms").figures();
+  EXPECT_GT(free.at("error estimate, frequency, mesh [%]"), 0.5);
+  EXPECT_NEAR(hung.at("error estimate, frequency, mesh [%]"), free.at("error estimate, frequency, mesh [%]"),
+              0.01 * free.at("error estimate, frequency, mesh [%]"));
+  EXPECT_NEAR(hung.at("error estimate, time step [%]"), free.at("error estimate, time step [%]"),
+              0.01 * free.at("error estimate, time step [%]"));
+  EXPECT_NEAR(hung.at("mean frequency of the motion [Hz]"), free.at("mean frequency of the motion [Hz]"),
+              0.01 * free.at("mean frequency of the motion [Hz]"));
+}
+
 // A bar under a half-sine; what the run warned of.
 std::string warnings(const Settings& settings) {
   testing::internal::CaptureStderr();
