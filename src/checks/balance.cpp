@@ -9,6 +9,7 @@
 
 #include "base/names.hpp"
 #include "checks/parts.hpp"
+#include "checks/prescribed.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/load.hpp"
 
@@ -56,16 +57,15 @@ void hold_by_supports(const Problem& problem, const Step& step, const Substructu
   }
 }
 
-Axes held_axes(const Problem& problem, const Step& step, const Substructure& part) {
+Axes held_axes(const Problem& problem, const Step& step, const std::vector<Prescribed>& prescribed,
+               const Substructure& part) {
   Axes held = Axes::Constant(3, part.mesh->nodes.cols(), false);
   hold_by_supports(problem, step, part, held);
-  for (const LoadPtr& load : step.loads)
-    for (const Effect& effect : load->effects()) {
-      const auto* motion = std::get_if<PrescribedMotion>(&effect);
-      if (!motion || &part_of(motion->on) != &part) continue;
-      for (const int node : nodes_at(motion->on))
-        for (int axis = 0; axis < 3; ++axis) held(axis, node) |= motion->along[axis].has_value();
-    }
+  for (const auto& [load, motion] : prescribed) {
+    if (&part_of(motion.on) != &part) continue;
+    for (const int node : nodes_at(motion.on))
+      for (int axis = 0; axis < 3; ++axis) held(axis, node) |= motion.along[axis].has_value();
+  }
   return held;
 }
 
@@ -82,12 +82,13 @@ bool acts_on_held_nodes_only(const NodalForces& force, const Axes& held) {
 
 void doubt_idle_forces(const Problem& problem, const Step& step) {
   std::map<const Substructure*, Axes> held;
+  const std::vector<Prescribed> prescribed = prescribed_in(step);
   for (const LoadPtr& load : step.loads)
     for (const Effect& effect : load->effects()) {
       const auto* force = std::get_if<NodalForces>(&effect);
       if (!force) continue;
       const Substructure& part = part_of(force->on);
-      if (!held.contains(&part)) held[&part] = held_axes(problem, step, part);
+      if (!held.contains(&part)) held[&part] = held_axes(problem, step, prescribed, part);
       if (!acts_on_held_nodes_only(*force, held[&part])) continue;
       doubt(problem, load->origin,
             fmt::format(

@@ -10,6 +10,7 @@
 
 #include "base/overloaded.hpp"
 #include "checks/parts.hpp"
+#include "checks/prescribed.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/load.hpp"
@@ -248,7 +249,8 @@ void supports_follow(const Problem& problem, const Load& load) {
 }
 
 // Is every node of a face held or moved along an axis, and by what? Empty: not.
-std::string driver_of(const Problem& problem, const Step& step, const Face& face, int axis) {
+std::string driver_of(const Problem& problem, const Step& step, const std::vector<Prescribed>& prescribed,
+                      const Face& face, int axis) {
   const auto covers = [&](const FaceOrRegion& place) {
     if (&part_of(place) != face.part.get()) return false;
     const std::vector<int> all = nodes_at(place), nodes = nodes_at(face);
@@ -258,16 +260,14 @@ std::string driver_of(const Problem& problem, const Step& step, const Face& face
     for (const FaceOrRegion& place : support->on)
       if (support->kind->holds(step.is_static) != Directions::none && claims(*support, place, axis) && covers(place))
         return describe(*support);
-  for (const LoadPtr& load : step.loads)
-    for (const Effect& effect : load->effects())
-      if (const auto* motion = std::get_if<PrescribedMotion>(&effect);
-          motion && motion->along[static_cast<size_t>(axis)] && covers(motion->on))
-        return load->path;
+  for (const auto& [load, motion] : prescribed)
+    if (motion.along[static_cast<size_t>(axis)] && covers(motion.on)) return load->path;
   return "";
 }
 
 // An interface both of whose sides move as told transmits nothing and may stand open or overlap unseen.
 void interfaces_have_a_free_side(const Problem& problem, const Step& step) {
+  const std::vector<Prescribed> prescribed = prescribed_in(step);
   for (const InterfacePtr& interface : problem.interfaces) {
     const Law& law = *interface->law;
     if (!law.takes_part(true)) continue;  // a damper holds nothing: it is made to be driven
@@ -276,9 +276,9 @@ void interfaces_have_a_free_side(const Problem& problem, const Step& step) {
     const Vec3 normal = normal_of(interface->side_1);
     int axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
-    const std::string one = driver_of(problem, step, interface->side_1, axis);
+    const std::string one = driver_of(problem, step, prescribed, interface->side_1, axis);
     if (one.empty()) continue;
-    const std::string other = driver_of(problem, step, interface->side_2, axis);
+    const std::string other = driver_of(problem, step, prescribed, interface->side_2, axis);
     if (other.empty()) continue;
     fail(problem, interface->origin,
          "step '" + step.name + "': both sides of " + describe(*interface) + " are held or moved along " + "xyz"[axis] +

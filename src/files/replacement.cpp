@@ -66,6 +66,14 @@ Replacement::~Replacement() {
   fs::remove_all(work_, error);
 }
 
+// What could not go back stays under a name that no continuation writes to.
+fs::path Replacement::keep() {
+  const fs::path wanted = directory_.string() + ".kept";
+  fs::path kept = wanted;
+  for (int i = 2; fs::exists(fs::symlink_status(kept)); ++i) kept = wanted.string() + std::to_string(i);
+  return std::rename(work_.c_str(), kept.c_str()) == 0 ? kept : work_;
+}
+
 void Replacement::commit(const std::string& dropped) {
   if (!exchange(directory_, work_))
     throw InputError("cannot put the new results in the place of '" + directory_.string() +
@@ -78,7 +86,7 @@ void Replacement::commit(const std::string& dropped) {
   if (carry_over(work_, directory_))
     fs::remove_all(work_, error);
   else
-    warn(fmt::format("'{}' keeps what was beside the old results under names that new ones have", work_.string()));
+    warn(fmt::format("'{}' keeps what was beside the old results under names that new ones have", keep().string()));
 }
 
 }  // namespace dygita

@@ -19,12 +19,14 @@ class Replacement {
   // A hidden sibling of the old results, for RunWriter to fill.
   const std::filesystem::path& work() const { return work_; }
 
-  // The new results take the place of the old ones in one move; files there that no run of ours wrote stay. Throws
-  // InputError with the system's reason; then the old ones are still there. The old one of `dropped`, and of
-  // `dropped`.parts, does not stay.
+  // The new results take the place of the old ones in one move; files there that no run of ours wrote stay,
+  // those whose names new results have in `directory`.kept, as a warning says. Throws InputError with the system's
+  // reason; then the old ones are still there. The old one of `dropped`, and of `dropped`.parts, does not stay.
   void commit(const std::string& dropped = "");
 
  private:
+  std::filesystem::path keep();
+
   std::filesystem::path directory_, work_;
   bool is_committed_ = false;
 };

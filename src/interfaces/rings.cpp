@@ -35,17 +35,14 @@ bool reaches(const Place& one, const Place& other, const std::vector<std::pair<P
   return std::find(reached.begin(), reached.end(), other) != reached.end();
 }
 
-// Is it a tie in all steps? Contact may open, and what a load releases lets go.
-bool holds_always(const Problem& problem, const InterfacePtr& interface) {
-  const auto releases = [&](const Effect& effect) {
-    const auto* release = std::get_if<Release>(&effect);
-    return release && release->on == interface;
-  };
+// Interfaces that a load lets go in a step.
+std::set<InterfacePtr> released_in(const Problem& problem) {
+  std::set<InterfacePtr> released;
   for (const StepPtr& step : problem.steps)
     for (const LoadPtr& load : step->loads)
-      if (const std::vector<Effect> effects = load->effects(); std::any_of(effects.begin(), effects.end(), releases))
-        return false;
-  return interface->law->is_tie();
+      for (const Effect& effect : load->effects())
+        if (const auto* release = std::get_if<Release>(&effect)) released.insert(release->on);
+  return released;
 }
 
 // Is there such a way with one of `one_of` in it?
@@ -111,13 +108,15 @@ Rings::Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& 
       areas_(problem.interfaces.size()),
       moduli_(problem.interfaces.size()),
       near_(problem.interfaces.size(), std::numeric_limits<double>::infinity()) {
+  const std::set<InterfacePtr> released = released_in(problem);
   for (size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;  // mean motions are joined
     const Interface& interface = *problem.interfaces[i];
     moduli_[i] =
         std::min(interface.side_1.part->material.shear_modulus(), interface.side_2.part->material.shear_modulus());
     if (meetings[i]->matches()) matching_.insert(static_cast<int>(i));
-    if (holds_always(problem, problem.interfaces[i])) holding_.insert(static_cast<int>(i));
+    // A tie in all steps: contact may open.
+    if (interface.law->is_tie() && !released.contains(problem.interfaces[i])) holding_.insert(static_cast<int>(i));
     PlacedFace one = placed(interface.side_1), other = placed(interface.side_2);
     one.facets = meetings[i]->facets_1();
     other.facets = meetings[i]->facets_2();

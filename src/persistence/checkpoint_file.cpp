@@ -119,8 +119,11 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
   if (file_) std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);
   if (!file_ || !put(file_.get(), checkpoint_magic, 8) || !put(file_.get(), &checkpoint_version, 4) ||
       !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header, sum_) || std::fflush(file_.get()) != 0 ||
-      std::rename(temporary.c_str(), path_.c_str()) != 0)
-    throw InputError(fmt::format("cannot write '{}': {}", path_.string(), reason_not_written(errno)));
+      std::rename(temporary.c_str(), path_.c_str()) != 0) {
+    const std::string why = reason_not_written(errno);
+    if (file_) std::filesystem::remove(temporary, ignored);
+    throw InputError(fmt::format("cannot write '{}': {}", path_.string(), why));
+  }
   entries_at_ = ftello(file_.get());
 }
 

@@ -35,7 +35,7 @@ TEST(Replacement, moves_nothing_through_a_link_in_what_a_killed_run_left) {
   replacement.commit();
   EXPECT_TRUE(fs::is_empty(elsewhere));
   EXPECT_EQ(text_of(folder / "tip.csv"), "new");
-  EXPECT_EQ(text_of(scratch.path() / ".base.continued/notes/script.py"), "theirs");
+  EXPECT_EQ(text_of(scratch.path() / "base.kept/notes/script.py"), "theirs");
 }
 
 TEST(Replacement, keeps_a_folder_of_the_users_that_has_the_name_of_a_result) {
@@ -51,7 +51,14 @@ TEST(Replacement, keeps_a_folder_of_the_users_that_has_the_name_of_a_result) {
   replacement.commit();
   EXPECT_NE(testing::internal::GetCapturedStderr().find("keeps what was beside the old results"), std::string::npos);
   EXPECT_EQ(text_of(folder / "tip.csv"), "new");
-  EXPECT_EQ(text_of(scratch.path() / ".base.continued/tip.csv/mine"), "mine");
+  EXPECT_EQ(text_of(scratch.path() / "base.kept/tip.csv/mine"), "mine");
+  // The next continuation finds nothing in its way, and takes nothing away.
+  Replacement again(folder);
+  put_results(again.work(), "newer");
+  again.commit();
+  EXPECT_EQ(text_of(folder / "tip.csv"), "newer");
+  EXPECT_EQ(text_of(scratch.path() / "base.kept/tip.csv/mine"), "mine");
+  EXPECT_FALSE(fs::exists(again.work()));
 }
 
 TEST(Replacement, takes_the_place_of_the_old_results_and_keeps_what_others_put_there) {
