@@ -102,12 +102,18 @@ class CaseReader {
   }
 
   void read_parameters() {
+    const std::set<std::string> of_damping = {"G", "GFL", "ALPHA1", "ALPHA2"};
     for (const BulkCard& card : file_.cards()) {
       if (card.name != "PARAM") continue;
       const BulkFields fields(file_, card);
       const std::string name = fields.word(1), value = fields.word(2);
       if (name == "INREL" && value != "0")
         analysis_.untranslated.push_back(file_.where(card) + ": PARAM INREL: inertia relief");
+      if (of_damping.contains(name) && fields.real_or(2, 0.0, "a number") != 0.0)
+        analysis_.remarks.push_back(
+            fmt::format("{}: PARAM {} = {}: damping of the whole model, which changes neither "
+                        "statics nor modes; give it to the materials before a shock",
+                        file_.where(card), name, value));
       if (name == "LGDISP" && value != "-1")
         analysis_.remarks.push_back(file_.where(card) +
                                     ": PARAM LGDISP: displacements are small in this program, and the run warns where "

@@ -86,6 +86,7 @@ class Reader {
     };
     each({164}, &Reader::read_units);
     settle_unit();
+    each({2420}, &Reader::read_systems);
     each({2411, 781}, &Reader::read_nodes);
     each({2412}, &Reader::read_elements);
     if (model_.cells.empty())
@@ -118,11 +119,28 @@ class Reader {
           "dataset 164 says that lengths are in units of {:g} m: 'unit' = {:g} m is taken", *stated_, *options_.unit));
   }
 
+  // Coordinate systems by number; those of nodes are 0 or 1, which is the global one unless it is given as another.
+  void read_systems(const UnvDataset& dataset) {
+    UnvLines lines(file_, dataset);
+    for (const char* what : {"the number of a part", "the name of a part"}) lines.take(what);
+    while (!lines.is_at_end()) {
+      const std::vector<long> head = lines.wholes(2, "the number and the type of a coordinate system");
+      lines.take("the name of a coordinate system");
+      bool is_global = head[1] == 0;
+      for (int row = 0; row < 4; ++row) {
+        const std::vector<double>& values = lines.reals(3, "an axis or the origin of a coordinate system");
+        for (int axis = 0; axis < 3; ++axis)
+          is_global &= values[static_cast<size_t>(axis)] == (row == axis ? 1.0 : 0.0);
+      }
+      if (!is_global) others_.insert(head[0]);
+    }
+  }
+
   void read_nodes(const UnvDataset& dataset) {
     for (UnvLines lines(file_, dataset); !lines.is_at_end();) {
       const std::vector<long>& head = lines.wholes(2, "the number of a node");
       const long number = head[0];
-      if (head[1] > 1)
+      if (head[1] > 1 || others_.contains(head[1]))
         lines.fail(fmt::format("node {} is in coordinate system {}: only the global one is read", number, head[1]));
       if (!node_of_.emplace(number, static_cast<int>(model_.nodes.size())).second)
         lines.fail(fmt::format("node {} is given twice", number));
@@ -308,7 +326,7 @@ class Reader {
     if (n_other_entities_ > 0)
       model_.told.push_back(
           fmt::format("{} entities of groups are neither nodes nor elements and are left out", n_other_entities_));
-    const std::set<long> used = {164, 2411, 781, 2412, 2467, 2477, 2452, 2435};
+    const std::set<long> used = {164, 2420, 2411, 781, 2412, 2467, 2477, 2452, 2435};
     std::map<long, std::vector<std::string>> others;
     for (const UnvDataset& dataset : file_.datasets())
       if (!used.contains(dataset.number))
@@ -326,6 +344,7 @@ class Reader {
   ForeignModel model_;
   std::optional<double> stated_;  // m
   double unit_ = 1.0;             // m
+  std::set<long> others_;         // numbers of coordinate systems that are not the global one
   std::unordered_map<long, int> node_of_;
   std::unordered_map<long, Element> element_of_;
   std::vector<long> property_;            // of each cell

@@ -188,6 +188,8 @@ TEST(NastranDeck, has_modes_by_number_or_up_to_a_frequency) {
   const std::string control = "SOL 103\nCEND\nSPC = 1\nMETHOD = 4\n", support = "SPC1,1,123,1,2,3,4\n";
   expect_in(imported(control, support + "EIGRL,4,,,12\n"), "outputs = { output.modes{ name = \"modes\", n = 12 } }");
   expect_in(imported(control, support + "EIGRL,4,,2000.\n"), "output.modes{ name = \"modes\", up_to = 2000/time }");
+  expect_in(imported(control, support + "EIGRL,4,,12\n" + "PARAM,G,.02\n"),
+            "PARAM G = .02: damping of the whole model");
   expect_in(imported(control, support), "METHOD 4: there is no EIGRL or EIGR of that number");
   expect_in(imported(control, support + "EIGRL,4,,,12\n", "MAT1,1,210000.,,.3"), "has no RHO");
 }

@@ -139,6 +139,13 @@ TEST(Unv, what_is_wrong_is_refused_by_line) {
          {"solid elements of type 117 are no cells here", "skip = { \"117\" }"});
   refuse(cube() + unv_dataset(2467, unv_group(1, "a", {{8, 7}})), {"there is no element 7"});
   refuse(cube() + unv_dataset(2467, unv_line({1, 0, 0, 0, 0, 0, 0, 5}) + "a\n"), {"entities of a group is expected"});
+  const auto system = [](const char* origin) {
+    return unv_dataset(2420, unv_line({1}) + "PART\n" + unv_line({1, 0, 0}) + "FIRST\n" +
+                                 " 1. 0. 0.\n 0. 1. 0.\n 0. 0. 1.\n" + origin);
+  };
+  refuse(system(" 0. 2.5 0.\n") + unv_dataset(2411, unv_line({1, 1, 1, 11}) + " 0. 0. 0.\n") + cube(),
+         {"node 1 is in coordinate system 1"});
+  refuse(system(" 0. x 0.\n") + cube(), {"the origin of a coordinate system is expected, not 'x'"});
   refuse(unv_dataset(2411, unv_line({1, 7, 1, 11}) + " 0. 0. 0.\n") + cube(), {"node 1 is in coordinate system 7"});
   refuse(unv_dataset(2411, unv_line({1, 1, 1, 11}) + " 0. x 0.\n"), {"coordinates is expected, not 'x'"});
   refuse(unv_units(-1.0) + cube(), {"a factor of lengths above 0"});
