@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -55,6 +56,23 @@ std::string text_of_file(const std::string& file) {
   stream.read(text.data(), static_cast<std::streamsize>(size));
   if (!stream) throw InputError(fmt::format("cannot read the file '{}'", file));
   return text;
+}
+
+void remove_parts(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(fs::symlink_status(folder, error))) {
+    std::vector<fs::path> parts;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      const std::string name = entry.path().filename().string();
+      if (name.find_first_not_of("0123456789") == std::string::npos && !fs::is_directory(entry.symlink_status(error)))
+        parts.push_back(entry.path());
+    }
+    for (const fs::path& part : parts) fs::remove(part, error);
+  } else if (!fs::is_symlink(fs::symlink_status(folder, error))) {
+    return;
+  }
+  fs::remove(folder, error);  // fails, as it should, if not empty
 }
 
 std::string reason_not_written(int error) {

@@ -22,6 +22,10 @@ void require_readable(const std::filesystem::path& path);
 // The text of a file. Throws InputError where it cannot be read, or is larger than may be.
 std::string text_of_file(const std::string& file);
 
+// Removes the files in a folder that are called by numbers, as parts of ranks are, and the folder where this leaves it
+// empty; of a link the link alone. What others put there stays.
+void remove_parts(const std::filesystem::path& folder);
+
 // What `errno` says of a file that could not be written.
 std::string reason_not_written(int error);
 

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "files/manifest.hpp"
 
 namespace dygita {
@@ -51,13 +52,15 @@ bool carry_over(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-Replacement::Replacement(const fs::path& directory) : directory_(fs::canonical(directory)) {
+Replacement::Replacement(const fs::path& directory, std::vector<std::string> dropped, bool clears)
+    : directory_(fs::canonical(directory)), dropped_(std::move(dropped)) {
   work_ = directory_.parent_path() / ("." + directory_.filename().string() + ".continued");
   // What a killed run has left there is a folder; a link would lead to the old results, or anywhere.
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(work_, ignored);
   if (fs::exists(there) && !fs::is_directory(there))
     throw InputError("'" + work_.string() + "' is a link or a file, where new results are to be written: remove it");
+  if (clears) give_back();
 }
 
 Replacement::~Replacement() {
@@ -74,19 +77,28 @@ fs::path Replacement::keep() {
   return std::rename(work_.c_str(), kept.c_str()) == 0 ? kept : work_;
 }
 
-void Replacement::commit(const std::string& dropped) {
-  if (!exchange(directory_, work_))
-    throw InputError("cannot put the new results in the place of '" + directory_.string() +
-                     "': " + std::strerror(errno));
-  is_committed_ = true;
-  { const Manifest removes_what_it_lists(work_); }
+// Takes away what runs wrote to `work`: a run that was killed, or, after the exchange, the one before. What others put
+// there goes to the results, as after an exchange that was the last a run did.
+void Replacement::give_back() {
+  Manifest::clear(work_);
   std::error_code error;
-  fs::remove(work_ / Manifest::file_name, error);
-  if (!dropped.empty()) fs::remove_all(work_ / dropped, error), fs::remove_all(work_ / (dropped + ".parts"), error);
+  for (const std::string& name : dropped_) {
+    if (!fs::is_directory(fs::symlink_status(work_ / name, error))) fs::remove(work_ / name, error);
+    remove_parts(work_ / (name + ".parts"));
+  }
+  if (!fs::exists(fs::symlink_status(work_, error))) return;
   if (carry_over(work_, directory_))
     fs::remove_all(work_, error);
   else
     warn(fmt::format("'{}' keeps what was beside the old results under names that new ones have", keep().string()));
+}
+
+void Replacement::commit() {
+  if (!exchange(directory_, work_))
+    throw InputError("cannot put the new results in the place of '" + directory_.string() +
+                     "': " + std::strerror(errno));
+  is_committed_ = true;
+  give_back();
 }
 
 }  // namespace dygita

@@ -113,7 +113,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
   std::filesystem::remove(temporary, ignored);  // a link there would lead to a file of somebody's
   errno = 0;
   file_.reset(std::fopen(temporary.c_str(), "w+bx"));
-  std::filesystem::remove_all(parts_folder(path_), ignored);  // they go with what is there
+  remove_parts(parts_folder(path_));  // they go with what is there
   const std::string header = bytes_of(identity);
   head_ = sum_ = chained_sum(0, header);
   if (file_) std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "files/files.hpp"
 #include "model/own_files.hpp"
 #include "ranks/ranks.hpp"
@@ -118,7 +119,7 @@ std::shared_ptr<Trail> part_of_checkpoint(const CheckpointFile* checkpoint, doub
 void remove_checkpoint(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / checkpoint_file_name, ignored);
-  std::filesystem::remove_all(parts_folder(folder / checkpoint_file_name), ignored);
+  remove_parts(parts_folder(folder / checkpoint_file_name));
   for (const char* const half : {"", ".tmp"})  // a kill may have come while it was written
     std::filesystem::remove(folder / (std::string(own_file::going_on) + half), ignored);
 }

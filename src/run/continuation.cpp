@@ -41,11 +41,13 @@ fs::path unfinished_case(const fs::path& folder) {
   std::string list;
   for (const fs::path& one : unfinished.empty() ? cases : unfinished) list += "\n      " + one.string();
   if (list.empty()) return folder;
-  throw InputError(unfinished.empty()
-                       ? fmt::format("every case in '{}' is complete\n    name the folder of one to refine it, or run "
-                                     "the deck again for missing cases:{}",
-                                     folder.string(), list)
-                       : fmt::format("several cases in '{}' were stopped: continue one of{}", folder.string(), list));
+  throw InputError(
+      unfinished.empty()
+          ? fmt::format(
+                "every case that was begun in '{}' is complete\n    name the folder of one to refine it, or run "
+                "the deck again for cases that were not:{}",
+                folder.string(), list)
+          : fmt::format("several cases in '{}' were stopped: continue one of{}", folder.string(), list));
 }
 
 // The end of the run as it was asked for, s.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "model/load.hpp"
 #include "ranks/ranks.hpp"
 #include "run/share_plan.hpp"
@@ -232,8 +233,7 @@ void keep_state(RunState& state, KeptParts kept, RunWriter& writer, bool has_che
     write_state(path, state);
     result.figures.state_file = (static_cast<double>(std::filesystem::file_size(path)) + bytes_of_files(parts)) / 1e6;
   } catch (const InputError& error) {
-    std::error_code ignored;
-    std::filesystem::remove_all(parts, ignored);
+    remove_parts(parts);
     warn(fmt::format(
         "{}\n    {}; its results are not touched", error.what(),
         has_checkpoint ? "the run can be continued from its checkpoint" : "this run cannot be continued later"));

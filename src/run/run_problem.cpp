@@ -207,7 +207,9 @@ struct RunSite {
   RunSite(const Problem& problem, const RunRequest& request)
       : directory(request.replaces.empty() ? request.out / problem.name / request.case_name : request.replaces),
         lock(request.lock || !request.write_files ? request.lock : own_lock(problem, request)) {
-    if (!request.replaces.empty() && !request.is_in_place) replacement.emplace(request.replaces);
+    if (!request.replaces.empty() && !request.is_in_place)
+      replacement.emplace(request.replaces, std::vector<std::string>{own_file::checkpoint, own_file::going_on},
+                          ranks::is_first());
     work = replacement ? replacement->work() : directory;
   }
 
@@ -316,9 +318,7 @@ void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
   if (site.replacement && site.is_kept) {
     if (request.continues) remove_checkpoint(site.work);
     if (request.checkpoint && result.interrupted) share_checkpoint(site.directory, site.work);
-    std::error_code ignored;
-    std::filesystem::remove(site.directory / own_file::going_on, ignored);  // the new results have theirs
-    site.replacement->commit(checkpoint_file_name);
+    site.replacement->commit();
   } else if (!site.replacement && site.checkpoint && !result.interrupted) {
     remove_checkpoint(site.directory);
   }

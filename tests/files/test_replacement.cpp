@@ -35,7 +35,8 @@ TEST(Replacement, moves_nothing_through_a_link_in_what_a_killed_run_left) {
   replacement.commit();
   EXPECT_TRUE(fs::is_empty(elsewhere));
   EXPECT_EQ(text_of(folder / "tip.csv"), "new");
-  EXPECT_EQ(text_of(scratch.path() / "base.kept/notes/script.py"), "theirs");
+  EXPECT_EQ(text_of(folder / "notes/script.py"), "theirs");
+  EXPECT_TRUE(fs::is_symlink(scratch.path() / "base.kept/notes"));
 }
 
 TEST(Replacement, keeps_a_folder_of_the_users_that_has_the_name_of_a_result) {
@@ -59,6 +60,34 @@ TEST(Replacement, keeps_a_folder_of_the_users_that_has_the_name_of_a_result) {
   EXPECT_EQ(text_of(folder / "tip.csv"), "newer");
   EXPECT_EQ(text_of(scratch.path() / "base.kept/tip.csv/mine"), "mine");
   EXPECT_FALSE(fs::exists(again.work()));
+}
+
+// A kill right after the exchange leaves the old results and what lay beside them there; the next continuation may
+// stop.
+TEST(Replacement, gives_back_what_a_killed_run_left_of_others_whether_it_commits_or_not) {
+  const Scratch scratch;
+  const fs::path folder = scratch.path() / "base", left = scratch.path() / ".base.continued";
+  put_results(folder, "new");
+  put_results(left, "old");
+  put(left / "notes.txt", "mine");
+  put(left / "checkpoint", "old");
+  fs::create_directories(left / "checkpoint.parts");
+  put(left / "checkpoint.parts/1", "old");
+  put(left / "checkpoint.parts/list", "mine");
+  fs::create_directories(left / ".dygita-files.mine");
+  put(left / ".dygita-files.mine/user", "mine");
+  {
+    Replacement stopped(folder, {"checkpoint"});
+    EXPECT_FALSE(fs::exists(left));
+    put_results(stopped.work(), "half");
+  }
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_EQ(text_of(folder / "tip.csv"), "new");
+  EXPECT_FALSE(fs::exists(folder / "checkpoint"));
+  EXPECT_FALSE(fs::exists(folder / "checkpoint.parts/1"));
+  EXPECT_EQ(text_of(folder / "notes.txt"), "mine");
+  EXPECT_EQ(text_of(folder / "checkpoint.parts/list"), "mine");
+  EXPECT_EQ(text_of(folder / ".dygita-files.mine/user"), "mine");
 }
 
 TEST(Replacement, takes_the_place_of_the_old_results_and_keeps_what_others_put_there) {
