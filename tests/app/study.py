@@ -63,7 +63,7 @@ for case in ("mu 0.1", "mu 0.2", "mu 0.3"):
     check(not different, f"killed in {case}, continued: {', '.join(different)} differ")
     printed = [line for line in whole.splitlines() if line.startswith("mu ")]
     check([line for line in output.splitlines() if line.startswith("mu ")] == printed, f"{case}: other lines are printed\n{output}")
-dygita("continue", FOLDER / "whole" / "study", expected=2, says="every case in")
+dygita("continue", FOLDER / "whole" / "study", expected=2, says="every case that was begun in")
 
 # What is to be left out is left out again; and what is continued further asks for a case of its own.
 study = killed_in("mu 0.2", "--set", "us=2000")
