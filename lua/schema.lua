@@ -349,8 +349,8 @@ words[3] = {
             { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
           } },
         } },
-      frame "of `place`; the mesh turns with it",
-      { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
+      frame "of `place` and `velocity`; the mesh turns with it",
+      { "velocity", in_frame = "direction", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
       { "orientation", type = "orientation", default_doc = "along x, y, z",
         doc = "of a material with directions, in the coordinates of the mesh, with which it turns (`place`, `pattern.circle`): { axis1, axis2 } (axis 2 in the plane of both, "
@@ -410,7 +410,7 @@ words[3][2] = {
   doc = "A rigid body, such as an equipment box on its feet: a mass and its inertia attached to faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name), those picked by geometry also \"face 1\", \"face 2\" ... by their place there; "
     .. "an interface joins each to the face that it lies on: `interface.bonded{ name = \"feet\", between = { panel:face \"feet\", box:face \"feet\" } }`.",
   arguments = of_mass("faces of parts that it touches; they are stiff as far as they are joined to it", nil,
-    frame "of `at` and along whose axes `inertia` is", part_arguments[6]),
+    frame "of `at` and `velocity`, and along whose axes `inertia` is", part_arguments[6]),
 }
 
 words.mass = {
@@ -423,7 +423,7 @@ words.mass = {
       { "motion", type = "choice", choices = { "mean", "rigid" }, default = "mean",
         doc = "what it follows: the mean motion of a face, translation and rotation, in which the face deforms freely (RBE3); or all of the face, which then stays rigid (RBE2)" },
       { "weights", type = "choice", choices = { "area", "nodes" }, default = "area", doc = "what counts in a mean motion: the area behind each node, or each node alike" },
-      frame "of `at` and along whose axes `inertia` is", part_arguments[6]),
+      frame "of `at` and `velocity`, and along whose axes `inertia` is", part_arguments[6]),
   },
 }
 

@@ -83,26 +83,47 @@ void add_drives_at(const Ensemble& ensemble, const std::vector<const EnsembleMem
   }
 }
 
-// By the name of each figure, its value in each member.
-using FiguresOfMembers = std::vector<std::pair<std::string, std::vector<double>>>;
+// A figure of an output, and its value in each member.
+struct FigureOfMembers {
+  std::string name, unit;
+  std::vector<double> values;
+
+  bool is_of(const Output& output) const { return name.rfind(output.name + ".", 0) == 0; }
+  double size() const {
+    double size = 0.0;
+    for (const double v : values) size = std::max(size, std::abs(v));
+    return size;
+  }
+};
+using FiguresOfMembers = std::vector<FigureOfMembers>;
 
 FiguresOfMembers figures_of(const std::vector<const EnsembleMember*>& members) {
   FiguresOfMembers figures;
   for (size_t m = 0; m < members.size(); ++m) {
     const std::vector<CaseFigure> own = case_summary(*members[m]->problem, *members[m]->result);
     for (size_t i = 0; i < own.size(); ++i) {
-      if (m == 0) figures.emplace_back(own[i].name, std::vector<double>());
-      CHECK(i < figures.size() && figures[i].first == own[i].name, "members have the same figures");
-      figures[i].second.push_back(own[i].value);
+      if (m == 0) figures.push_back({own[i].name, own[i].unit, {}});
+      CHECK(i < figures.size() && figures[i].name == own[i].name, "members have the same figures");
+      figures[i].values.push_back(own[i].value);
     }
   }
   return figures;
 }
 
+// A component along which the output does not move is rounding of the others.
+bool is_noise(const FigureOfMembers& figure, const FiguresOfMembers& figures, const Output& output) {
+  constexpr double rounding = 1e-9;
+  double size = 0.0;
+  for (const FigureOfMembers& other : figures)
+    if (other.unit == figure.unit && other.is_of(output)) size = std::max(size, other.size());
+  return figure.size() <= std::max(rounding * size, noise_of(figure.unit));
+}
+
 void add_drives(const Ensemble& ensemble, const std::vector<const EnsembleMember*>& members,
                 const FiguresOfMembers& figures, OutputScatter& scatter) {
-  for (const auto& [name, values] : figures) {
-    if (name.rfind(scatter.output->name + ".", 0) != 0) continue;
+  for (const FigureOfMembers& figure : figures) {
+    const auto& [name, unit, values] = figure;
+    if (!figure.is_of(*scatter.output) || is_noise(figure, figures, *scatter.output)) continue;
     const size_t before = scatter.drives.size();
     for (size_t j = 0; j < ensemble.parameters.size(); ++j)
       if (const RankCorrelation found = rank_correlation(values_of(members, j), values); std::isfinite(found.value))

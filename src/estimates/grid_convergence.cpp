@@ -31,6 +31,15 @@ bool turns_back(const Values& coarse, const Values& middle, const Values& fine) 
   return product < 0.0;
 }
 
+// After a change that was smaller than the next one or went the other way, as on a plateau, the last change may be
+// small by chance.
+bool falls_by_chance(const std::vector<Values>& values) {
+  const size_t n = values.size();
+  if (n < 4) return false;
+  const Values &first = values[n - 4], &coarse = values[n - 3], &middle = values[n - 2];
+  return !(largest_change(first, coarse) >= largest_change(coarse, middle)) || turns_back(first, coarse, middle);
+}
+
 // Of errors C h^p, from the changes of three runs and the ratios of their sizes.
 double observed_order(double change_coarse, double change_fine, double ratio_coarse, double ratio_fine) {
   double order = 1.0;
@@ -63,7 +72,7 @@ const char* meaning(Tendency tendency) {
     case Tendency::slow:
       return "slow: a singularity, such as a re-entrant or contact edge (grade the mesh there), or an impact";
     case Tendency::oscillating:
-      return "not asymptotic: oscillates; refine further";
+      return "not asymptotic: the changes from run to run do not fall steadily; refine further";
     case Tendency::divergent:
       return "no limit in these runs: they are too coarse, or there is none, as for stress at a sharp corner";
   }
@@ -91,14 +100,16 @@ GridConvergence grid_convergence(const std::vector<double>& sizes, const std::ve
     found.exponent = 0.0;
     return found;
   }
-  if (turns_back(coarse, middle, fine)) {
+  const auto doubt = [&] {
     found.tendency = Tendency::oscillating;
     found.uncertainty = doubted * std::max(change_coarse, change_fine);
     return found;
-  }
+  };
+  if (turns_back(coarse, middle, fine)) return doubt();
   found.order = change_fine <= noise ? std::numeric_limits<double>::infinity()
                                      : observed_order(change_coarse, change_fine, ratio_coarse, ratio_fine);
   found.tendency = tendency_of(found.order);
+  if (found.tendency == Tendency::fast && falls_by_chance(values)) return doubt();
   if (found.tendency == Tendency::divergent) return found;
   found.exponent = found.tendency == Tendency::fast ? formal_order : found.order;
   const double share = 1.0 / (std::pow(ratio_fine, found.exponent) - 1.0);

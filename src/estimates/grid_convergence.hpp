@@ -11,7 +11,7 @@ enum class Tendency {
   asymptotic,   // of an order between 0.9 and 2.5
   fast,         // of a higher one: coarse runs that have not come to their order yet
   slow,         // of a lower one: something singular, as at a re-entrant edge
-  oscillating,  // the last two changes point opposite ways
+  oscillating,  // the last two changes point opposite ways, or fall fast after one that did not
   divergent     // the changes do not shrink
 };
 

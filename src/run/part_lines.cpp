@@ -89,6 +89,7 @@ namespace {
 // Of a base since the first step.
 struct BaseJourney {
   Vec3 velocity = Vec3::Zero(), path = Vec3::Zero();  // m/s, m
+  Vec3 gained = Vec3::Zero();                         // m/s, in dynamic steps
   double time = 0.0;                                  // s, of dynamic steps
   bool is_shaken = false;
 };
@@ -116,6 +117,7 @@ void go_on(const Support& support, const Step& step, BaseJourney& base) {
       change += motion->direction * motion->acceleration.integral(i * dt, (i + 1) * dt);
     base.path += dt * (base.velocity + 0.5 * change);
     base.velocity += change;
+    base.gained += change;
   }
   base.time += step.duration;
 }
@@ -127,7 +129,7 @@ std::vector<std::string> base_lines(const Problem& problem) {
   for (const SupportPtr& support : all_supports(problem)) {
     BaseJourney base;
     for (const StepPtr& step : problem.steps) go_on(*support, *step, base);
-    const Vec3 v = base.velocity + Vec3::Zero(), u = 1e3 * base.path + Vec3::Zero();  // no "-0"
+    const Vec3 v = base.gained + Vec3::Zero(), u = 1e3 * base.path + Vec3::Zero();  // no "-0"
     if (base.is_shaken)
       lines.push_back(
           fmt::format("  base '{}': in the {:.4g} ms of the dynamic steps its velocity changes by ({:.3g}, {:.3g}, "

@@ -28,6 +28,7 @@
 #include "result/limits.hpp"
 #include "run/checkpoints.hpp"
 #include "run/earlier_run.hpp"
+#include "run/error_lines.hpp"
 #include "run/frame_files.hpp"
 #include "run/keep_state.hpp"
 #include "run/part_lines.hpp"
@@ -130,27 +131,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (figures.static_imbalance)
     say(fmt::format("  that of static steps within {:.3g} %, numerical dissipation {:.3g} %, energy gain {:.3g} %",
                     *figures.static_imbalance, figures.static_dissipation.value(), figures.static_gain.value()));
-  if (figures.mesh_error)
-    say(fmt::format(
-        "  estimated errors (energy norm, {:.3g} kHz on average): {} {:.2g} %, time step {:.2g} %, mesh {:.2g} %",
-        figures.mean_frequency.value() / 1e3, figures.penalty_error ? "penalty" : "iteration",
-        (figures.penalty_error ? figures.penalty_error : figures.iteration_error).value(),
-        figures.time_step_error.value(), *figures.mesh_error));
-  if (figures.mesh_frequency_error)
-    say(fmt::format(
-        "  use these to choose dt and mesh, since lags accumulate in them; errors to report: a frequency is off by "
-        "{:.2g} % (time "
-        "step) and {:.2g} % (mesh), an amplitude by {:.2g} % (mesh), a spectrum by its band",
-        figures.step_frequency_error.value(), *figures.mesh_frequency_error, figures.mesh_amplitude_error.value()));
-  if (figures.mesh_frequency_error && contacts_change(problem, result.contacts))
-    say("  contacts touch, open or slide in the shock, when and where dt and mesh decide: these errors are orders of "
-        "magnitude there; compare with a finer run (dygita converge)");
-  if (figures.static_mesh_error)
-    say(fmt::format(
-        "  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} % (of stresses; of the displacement "
-        "under a load its square, {:.2g} %)",
-        figures.static_iteration_error.value(), *figures.static_mesh_error,
-        std::pow(*figures.static_mesh_error, 2) / 100.0));
+  for (const std::string& line : error_lines(problem, result)) say(line);
   for (const OutputPtr& output : problem.outputs)
     for (const std::string& line : result.findings_of(*output).lines) say("  " + line);
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));

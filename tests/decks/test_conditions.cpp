@@ -488,6 +488,24 @@ problem{ name = "cube", substructures = { cube }, supports = { foot, under }, st
 }
 
 // A bolt through a sleeve: tightened, once more by the same force, and loosened.
+// A thrown block and a mass on it: their velocities are along the axes of the frame that they are placed in.
+TEST(Frames, turn_velocities_at_the_start) {
+  const DeckRun run = run_text(R"(local site = frame{ axis = { 0, 0, 1 }, angle = 90*deg, origin = { 5*mm, 0, 0 } }
+local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0.3, density = 7800 }
+local cube = substructure{ name = "cube", material = m, frame = site, velocity = { 3, 0, 1 },
+  mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local box = mass.point{ name = "box", on = cube:face "zmax", mass = 0.01, frame = site, at = { 5*mm, 5*mm, 12*mm },
+  velocity = { 3, 0, 1 } }
+problem{ name = "thrown", substructures = { cube, box }, steps = { step.dynamic{ name = "fly", duration = 1*us, dt = 0.1*us } },
+  outputs = { output.momentum{ name = "p", of = { cube, box } } } }:run{}
+)")
+                          .at(0);
+  const double mass = 7800 * 1e-6 + 0.01;
+  EXPECT_NEAR(run.column("p", "x").back(), 0.0, 1e-9);
+  EXPECT_NEAR(run.column("p", "y").back(), 3.0 * mass, 1e-9);
+  EXPECT_NEAR(run.column("p", "z").back(), mass, 1e-9);
+}
+
 TEST(Preload, of_nothing_loosens_once_and_of_the_same_force_raises_no_alarm) {
   const std::string bolted = R"(
 local function block(name, x, z, w, h, n) return substructure{ name = name, material = metal, mesh = mesh.box{ origin = { x*mm, 0, z*mm }, size = { w*mm, 10*mm, h*mm }, cells = { n, 1, 3 } } } end

@@ -402,6 +402,21 @@ for _, drive in ipairs(r.drives[srs]) do print(("%s is clear: %d"):format(drive.
   EXPECT_NE(printed.text.find("rank correlation 1.00 ("), std::string::npos);
 }
 
+// Along y the bar moves by rounding, whose ranks go with the pulse that scales it.
+TEST(Ensemble, finds_no_driver_of_rounding) {
+  std::string deck = linear_bar;
+  deck.replace(deck.find("poisson = 0,"), 12, "poisson = 0.3,");
+  deck.replace(deck.find("outputs = { a, srs }"), 20, "outputs = { a, srs, d }");
+  deck.replace(deck.find("local drawn"), 11,
+               R"(local d = output.history{ name = "d", on = bar:face "xmin", quantity = "displacement" }
+local drawn)");
+  const Printed printed = printed_by(deck + R"(
+for _, drive in ipairs(r.drives[d]) do print(("of %s: %d"):format(drive.figure, 1)) end
+)");
+  EXPECT_NE(printed.text.find("of d.x largest: 1"), std::string::npos);
+  EXPECT_EQ(printed.text.find("of d.y"), std::string::npos);
+}
+
 TEST(Ensemble, writes_its_statistics) {
   const std::filesystem::path folder = own_folder();
   run_in(folder, linear_bar);

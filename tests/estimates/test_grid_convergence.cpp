@@ -61,6 +61,20 @@ TEST(GridConvergence, trusts_no_order_that_is_too_high) {
   EXPECT_NEAR(fast.uncertainty, 3.0 * (64.0 - 1.0) / 3.0, 1e-9);
 }
 
+// The peak of a cantilever's reaction (kN) over dt; finer runs give 4.385, 4.357, 4.365.
+TEST(GridConvergence, trusts_no_last_change_that_is_small_after_a_plateau_and_a_jump) {
+  const GridConvergence found =
+      grid_convergence({64.0, 32.0, 16.0, 8.0, 4.0, 2.0, 1.0},
+                       {{3.4907}, {3.6788}, {4.3061}, {4.1546}, {4.1877}, {4.49}, {4.5193}}, 0.0);
+  EXPECT_EQ(found.tendency, Tendency::oscillating);
+  EXPECT_GT(found.uncertainty, 4.5193 - 4.365);
+}
+
+TEST(GridConvergence, of_runs_that_fall_ever_faster_is_fast) {
+  const GridConvergence fast = of({8.0, 4.0, 2.0, 1.0}, [](double h) { return std::pow(h, 6.0); });
+  EXPECT_EQ(fast.tendency, Tendency::fast);
+}
+
 TEST(GridConvergence, leaves_rounding_alone) {
   const GridConvergence still = grid_convergence({4.0, 2.0, 1.0}, {{1.0}, {1.0 + 1e-13}, {1.0 - 1e-13}}, 1e-12);
   EXPECT_EQ(still.tendency, Tendency::settled);
