@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <mutex>
+#include <optional>
+#include <regex>
+#include <set>
 #include <utility>
 
 #include "base/kept_lines.hpp"
@@ -25,12 +28,35 @@ struct Waiting {
 };
 std::vector<Waiting> waiting;
 
+struct Alike {
+  std::set<std::string> said;  // without their numbers
+  int n_unsaid = 0;
+};
+std::optional<Alike> alike;
+
+// "spectrum 'a1' up to 1.5e-3 dB" as "spectrum 'a1' up to # dB": numbers in names stay.
+std::string without_numbers(const std::string& text) {
+  static const std::regex name_or_number(R"('[^']*'|[-+]?\d+(\.\d*)?(e[-+]?\d+)?)");
+  std::string kept;
+  auto rest = text.begin();
+  for (std::sregex_iterator found(text.begin(), text.end(), name_or_number), none; found != none; ++found) {
+    kept.append(rest, (*found)[0].first);
+    kept += *(*found)[0].first == '\'' ? found->str() : "#";
+    rest = (*found)[0].second;
+  }
+  return kept.append(rest, text.end());
+}
+
 // With the mutex held.
 void keep(const std::string& message, bool is_serious) {
   if (std::find(kept_warnings.begin(), kept_warnings.end(), message) != kept_warnings.end()) return;
   kept_warnings.insert(
       is_serious ? kept_warnings.begin() + static_cast<std::ptrdiff_t>(n_serious++) : kept_warnings.end(), message);
   if (is_silent) return;
+  if (alike && !is_serious && !alike->said.insert(without_numbers(message)).second) {
+    ++alike->n_unsaid;
+    return;
+  }
   leave_progress_line();
   std::fputs(("warning: " + printable(message) + "\n").c_str(), stderr);
 }
@@ -94,6 +120,21 @@ void tell_warnings() {
   const std::scoped_lock lock(log_mutex);
   for (const bool is_serious : {true, false}) tell(is_serious);
   waiting.clear();
+}
+
+SayAlikeOnce::SayAlikeOnce() {
+  const std::scoped_lock lock(log_mutex);
+  alike.emplace();
+}
+
+SayAlikeOnce::~SayAlikeOnce() {
+  const std::scoped_lock lock(log_mutex);
+  alike.reset();
+}
+
+int SayAlikeOnce::n_unsaid() const {
+  const std::scoped_lock lock(log_mutex);
+  return alike ? alike->n_unsaid : 0;
 }
 
 void be_silent() {

@@ -279,7 +279,10 @@ int run_from_deck(DeckState& state, lua_State* L) {
   const bool is_member = arguments.has("member");
   const bool is_quiet = is_member && arguments.text("member") == "quiet";
   if (is_quiet && state.is_solving && !state.outcome.lost_members) state.outcome.lost_members = 0;
-  if (is_member && state.n_members++ == 0) state.shared = std::make_shared<OperatorsOfMembers>();
+  if (is_member && state.n_members++ == 0) {
+    state.shared = std::make_shared<OperatorsOfMembers>();
+    state.say_alike_once.emplace();
+  }
   const DeckResultPtr result = [&] {
     const LuaState::Pause pause(state);
     return compute_at(origin, state, problem, {case_name, start_from, is_member, is_quiet});

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "base/log.hpp"
 #include "deck/deck.hpp"
 #include "deck/lua_state.hpp"
 #include "deck/register.hpp"
@@ -28,6 +30,7 @@ struct DeckState : LuaState {
   std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran
   DeckOutcome outcome;
   Study study;
+  std::optional<SayAlikeOnce> say_alike_once;  // while members of an ensemble run
   int n_members = 0;                           // of the ensemble at hand that have run, or were checked
   std::shared_ptr<OperatorsOfMembers> shared;  // among them
   std::set<std::string> parameters_read, signals_told;

@@ -250,6 +250,8 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   count_as_written(*found);
   state.n_members = 0;
   state.shared = nullptr;
+  const int n_unsaid = state.say_alike_once ? state.say_alike_once->n_unsaid() : 0;
+  state.say_alike_once.reset();
   state.outcome.lost_members.reset();
   ++state.outcome.n_written;
   state.declared.mark_used(the_object_at(L, 1).id);
@@ -261,6 +263,9 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   found->scatter = scatter_of(found->ensemble);
   found->statistics = statistics_of(*found);
   const std::string problem = found->ensemble.members.front().problem->name;
+  if (n_unsaid > 0)
+    say(fmt::format("ensemble '{}': {} warnings of members that differ from those above by numbers alone are not shown",
+                    found->ensemble.name, n_unsaid));
   if (state.is_solving)
     tell(*found, state.options.out / file_name_of(problem) / file_name_of(found->ensemble.name),
          state.options.write_files && state.options.is_study, keeps_members);

@@ -19,6 +19,24 @@ TEST(Log, warns_on_standard_error_and_keeps_the_warning) {
   EXPECT_EQ(take_warnings(), std::vector<std::string>{"the part is 300 m long"});
 }
 
+TEST(Log, says_what_differs_by_numbers_alone_once_where_it_is_asked_to) {
+  take_warnings();
+  testing::internal::CaptureStderr();
+  {
+    const SayAlikeOnce once;
+    warn("spectrum 'a1' rises by 1.5e-3 dB at (-2, 3.5) mm");
+    warn("spectrum 'a1' rises by 12 dB at (2, 1e+04) mm");
+    warn("spectrum 'b1' rises by 12 dB at (2, 1e+04) mm");
+    EXPECT_EQ(once.n_unsaid(), 1);
+  }
+  warn("spectrum 'a1' rises by 13 dB at (2, 1e+04) mm");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "warning: spectrum 'a1' rises by 1.5e-3 dB at (-2, 3.5) mm\n"
+            "warning: spectrum 'b1' rises by 12 dB at (2, 1e+04) mm\n"
+            "warning: spectrum 'a1' rises by 13 dB at (2, 1e+04) mm\n");
+  EXPECT_EQ(take_warnings().size(), 4U);
+}
+
 TEST(Log, tells_warnings_of_one_kind_together_serious_ones_first) {
   take_warnings();
   testing::internal::CaptureStderr();

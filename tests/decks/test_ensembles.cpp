@@ -417,6 +417,17 @@ for _, drive in ipairs(r.drives[d]) do print(("of %s: %d"):format(drive.figure, 
   EXPECT_EQ(printed.text.find("of d.y"), std::string::npos);
 }
 
+// Twelve members warn of the end of their records, each with its own frequencies and velocities.
+TEST(Ensemble, shows_warnings_of_members_that_differ_by_numbers_once) {
+  testing::internal::CaptureStderr();
+  const Printed printed = printed_by(linear_bar);
+  const std::string warnings = testing::internal::GetCapturedStderr(), of_record = "depends on where its record ends";
+  const size_t first = warnings.find(of_record);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(warnings.find(of_record, first + 1), std::string::npos);
+  EXPECT_NE(printed.text.find("differ from those above by numbers alone are not shown"), std::string::npos);
+}
+
 TEST(Ensemble, writes_its_statistics) {
   const std::filesystem::path folder = own_folder();
   run_in(folder, linear_bar);
