@@ -465,7 +465,7 @@ local function flattened(call, value, n, label, what)
   local flat = {}
   for i = 1, n do
     local item = value[i]
-    if type(item) == "table" and not native.kind(item) and item[1] ~= nil then
+    if type(item) == "table" and not native.kind(item) and (item[1] ~= nil or next(item) == nil) then
       local place = ("%s[%d]"):format(label, i)
       for _, inner in ipairs(flattened(call, item, check_list(call, item, place, what), place, what)) do flat[#flat + 1] = inner end
     else

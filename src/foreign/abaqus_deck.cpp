@@ -22,6 +22,8 @@ namespace {
 
 using Kind = FileAction::Kind;
 
+constexpr std::array<bool, 3> nothing{};  // no direction
+
 class AbaqusDeck : public ImportedDeck {
  public:
   AbaqusDeck(const ImportOptions& options, AbaqusModel& read, AbaqusAnalysis analysis)
@@ -41,6 +43,7 @@ class AbaqusDeck : public ImportedDeck {
     for (const FileSpring& spring : analysis_.springs)
       if (const std::string name = put_spring(spring, equations_.size() + 1); !name.empty()) equations_.push_back(name);
     std::vector<std::string> supports, loads;
+    drive_what_moves_later();
     add_before(supports, loads);
     const std::vector<std::string> supports_before = supports;
     for (const AbaqusStep& step : analysis_.steps) write_step(step, supports, loads);
@@ -191,6 +194,39 @@ class AbaqusDeck : public ImportedDeck {
     }
     return fmt::format("history.piecewise{{ times = {{ {} }}, values = {{ {} }} }}", comma_list(times),
                        comma_list(values));
+  }
+
+  // What a later step moves is no support until then: it is driven to stay where it is.
+  void drive_what_moves_later() {
+    for (size_t i = 0; i <= analysis_.steps.size(); ++i) {
+      std::vector<FileAction>& actions = i == 0 ? analysis_.before : analysis_.steps[i - 1].actions;
+      std::vector<FileAction> driven;
+      for (FileAction& action : actions) {
+        if (action.kind != Kind::held || action.stays) continue;
+        FileAction still = action;
+        still.kind = Kind::moved;
+        still.value.setZero();
+        still.along = {};
+        for (size_t step = i; step < analysis_.steps.size(); ++step)
+          for (const FileAction& by : analysis_.steps[step].actions) let_go(action, by, i == 0 && step == 0, still);
+        if (still.along != nothing) driven.push_back(std::move(still));
+      }
+      std::erase_if(actions,
+                    [](const FileAction& action) { return action.kind == Kind::held && action.along == nothing; });
+      actions.insert(actions.end(), driven.begin(), driven.end());
+    }
+  }
+
+  // From what is held to what stands still until `by` moves it; at once: there is no step before.
+  void let_go(FileAction& held, const FileAction& by, bool is_at_once, FileAction& still) const {
+    if (by.kind != Kind::moved) return;
+    const std::set<int> points = points_of(held), moved = points_of(by);
+    if (std::none_of(moved.begin(), moved.end(), [&](int point) { return points.contains(point); })) return;
+    for (size_t d = 0; d < 3; ++d) {
+      if (!held.along[d] || !by.along[d]) continue;
+      held.along[d] = false;
+      still.along[d] = !is_at_once || moved != points;
+    }
   }
 
   void add_before(std::vector<std::string>& supports, std::vector<std::string>& loads) {
@@ -373,8 +409,17 @@ class AbaqusDeck : public ImportedDeck {
         all_supports_.push_back(support);
   }
 
-  void note_modes(const AbaqusStep& step, const std::vector<std::string>& supports,
-                  const std::vector<std::string>& loads) {
+  // What is moved stands still in a mode.
+  void note_modes(const AbaqusStep& step, std::vector<std::string> supports, std::vector<std::string> loads) {
+    for (const ActingLoad& one : acting_.all()) {
+      if (one.action.kind != Kind::moved) continue;
+      FileAction still = one.action;
+      still.kind = Kind::held;
+      still.value.setZero();
+      still.amplitude.clear();
+      add({still}, supports, loads);
+      std::erase(loads, one.name);
+    }
     if (step.is_perturbation && !loads.empty())
       leave(fmt::format("{}: stresses of the loads before have no stiffness in the model", step.where));
     const std::string rest = names_.of("rest", std::to_string(modes_.size() + 1));

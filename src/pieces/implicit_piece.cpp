@@ -58,7 +58,7 @@ Points ImplicitPiece::velocity_of_impulse(const Points& impulse) const {
 }
 
 Points ImplicitPiece::after_jump(const Points& before, const Points& held) const {
-  if (op_.scheme().is_static || !op_.mass().is_full()) return held;
+  if (!op_.mass().is_matrix()) return held;
   const FreeUnknowns& unknowns = op_.unknowns();
   const Vec pull = unknowns.restrict_nodal(op_.mass().times_nodal(before - held));
   if (pull.isZero(0.0)) return held;

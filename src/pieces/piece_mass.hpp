@@ -13,7 +13,6 @@ class PieceMass {
 
   const Vec& lumped() const { return lumped_; }  // kg, of each unknown
   bool is_matrix() const { return matrix_.size() > 0; }
-  bool is_full() const { return is_matrix() && mass_->full.size() > 0; }  // that of a body without cells
   Vec times(const Vec& v) const;
   Vec solve(const Vec& momentum) const;  // of a matrix: velocities, by conjugate gradients
   // M times a nodal field (3 x n_nodes), held directions included; of those directions alone.

@@ -229,11 +229,7 @@ void start_step(StepModel& model, State& state) {
     if (is_static) velocity.setZero();
     if (first_dynamic) velocity += start_velocity(model, i);
   }
-  // Superelements alone feel what stops or moves others of their rows.
-  const bool may_jump =
-      !is_static && std::any_of(model.problem->substructures.begin(), model.problem->substructures.end(),
-                                [](const SubstructurePtr& part) { return !part->mesh->has_cells(); });
-  std::vector<Points> had = may_jump ? state.velocity : std::vector<Points>();
+  std::vector<Points> had = is_static ? std::vector<Points>() : state.velocity;
   double fastest = 0.0, stopped = 0.0;  // m/s, of what supports take
   const auto give_to_pieces = [&] {
     set_pieces(model, state);
@@ -247,7 +243,7 @@ void start_step(StepModel& model, State& state) {
     }
   };
   const auto jump_to_held = [&] {
-    if (!may_jump) return;
+    if (is_static) return;
     bool has_jumped = false;
     for (const int i : model.here) {
       const Points after = model.pieces[i]->after_jump(had[i], state.velocity[i]);
@@ -260,7 +256,7 @@ void start_step(StepModel& model, State& state) {
   const auto join = [&] {
     std::string where = join_velocities(model, state);
     if (!where.empty()) give_to_pieces();
-    if (may_jump) had = state.velocity;
+    if (!is_static) had = state.velocity;
     return where;
   };
   give_to_pieces();

@@ -488,6 +488,18 @@ problem{ name = "cube", substructures = { cube }, supports = { foot, under }, st
 }
 
 // A bolt through a sleeve: tightened, once more by the same force, and loosened.
+// Lists that loops fill may be empty.
+TEST(Lists, of_interfaces_may_have_empty_ones_in_them) {
+  const std::string deck = R"(local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0.3, density = 7800 }
+local cube = substructure{ name = "cube", material = m, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local base = support.fixed{ name = "base", on = cube:face "zmin" }
+problem{ name = "one", substructures = { {}, cube, { {} } }, interfaces = { {} }, supports = { {}, base },
+  steps = { step.static{ name = "pull", loads = { {}, load.pressure{ on = cube:face "zmax", history = 1*MPa } } } },
+  outputs = { {}, output.resultant{ name = "r", on = base } } }:run{}
+)";
+  EXPECT_NEAR(run_text(deck).at(0).column("r", "z").back(), 100.0, 1e-6);
+}
+
 // A thrown block and a mass on it: their velocities are along the axes of the frame that they are placed in.
 TEST(Frames, turn_velocities_at_the_start) {
   const DeckRun run = run_text(R"(local site = frame{ axis = { 0, 0, 1 }, angle = 90*deg, origin = { 5*mm, 0, 0 } }

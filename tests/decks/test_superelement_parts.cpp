@@ -60,9 +60,10 @@ double difference(const DeckRun& a, const DeckRun& b, const std::string& output,
 // --- two blocks, the lower one with all its modes: the same model in other coordinates
 
 const std::string header = R"(
-local p = param{ condensed = 0, law = 1, held = 0, turned = 0, gravity = 0, velocity = 0, shaken = 0, jump = 0, n = 27 }
+local p = param{ condensed = 0, law = 1, held = 0, turned = 0, gravity = 0, velocity = 0, shaken = 0, jump = 0, n = 27, cell = 1 }
+local cell = ({ "hex8", "hex20", "prism15", "tet10" })[p.cell]
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800, damping = { mass = 40, stiffness = 2e-7 } }
-local function block(z) return mesh.box{ origin = { 0, 0, z }, size = { 30*mm, 20*mm, 10*mm }, cells = { 2, 2, 2 } } end
+local function block(z) return mesh.box{ origin = { 0, 0, z }, size = { 30*mm, 20*mm, 10*mm }, cells = { 2, 2, 2 }, cell = cell, order = p.cell == 1 and 1 or 2 } end
 )";
 
 const std::string condensing = header + R"(
@@ -170,6 +171,18 @@ TEST(SuperelementPart, turns_moves_and_weighs_as_the_mesh) {
   expect_the_same(deck, {{"velocity", "1"}, {"turned", "1"}}, "monolithic");
   expect_the_same(deck, {{"jump", "1"}, {"law", "2"}});  // a face that moves at once gives the inside no momentum
   expect_the_same(deck, {{"jump", "1"}, {"law", "2"}, {"turned", "1"}}, "monolithic");
+}
+
+// Their mass is consistent: what is held passes its jump on to what is free.
+TEST(SuperelementPart, of_cells_of_order_two_is_driven_and_stopped_at_once_as_the_mesh) {
+  for (const char* cell : {"2", "3", "4"}) {
+    const Folder folder;
+    folder.condense(condensing, {{"cell", cell}, {"n", "1000"}});
+    const std::string deck = two_blocks(from_file(folder));
+    expect_the_same(deck, {{"cell", cell}, {"jump", "1"}, {"law", "2"}});
+    expect_the_same(deck, {{"cell", cell}, {"velocity", "1"}});
+    expect_the_same(deck, {{"cell", cell}, {"velocity", "1"}, {"turned", "1"}}, "monolithic");
+  }
 }
 
 TEST(SuperelementPart, keeps_the_support_that_was_condensed_with_it) {

@@ -354,6 +354,24 @@ TEST(AbaqusDeck, carries_loads_on_into_later_steps_until_they_are_said_anew) {
   expect_in(deck_of("*CLOAD, OP=NEW\n7, 2, 5.\n"), "OP = NEW after forces and distributed loads");
 }
 
+TEST(AbaqusDeck, drives_what_a_later_step_moves_from_the_start) {
+  const std::string held = "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n*STEP\n";
+  const std::string deck = imported(held + "*STATIC\n*BOUNDARY\nX0, 2, 2, 0.1\n*END STEP\n");
+  EXPECT_EQ(deck.find("support.fixed"), std::string::npos) << deck;
+  expect_in(deck, "x = true, z = true }");
+  expect_in(deck, "y = 0*length }");
+  expect_in(deck, "y = 0.1*length }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(imported(held + "*STATIC\n*BOUNDARY\nALL, 2, 2, 0.1\n*END STEP\n"), "it changes a part of what ");
+}
+
+TEST(AbaqusDeck, holds_in_modes_what_is_moved) {
+  const std::string deck = imported(
+      "*BOUNDARY\nX0, 1, 2\n*STEP\n*STATIC\n*BOUNDARY\nX0, 3, 3, 0.1\n*END STEP\n*STEP\n*FREQUENCY\n3\n*END STEP\n");
+  expect_in(deck, "support.fixed{ name = \"support_x0_2\"");
+  expect_in(deck, "supports = { support_x0_2 } }  -- without loads");
+}
+
 TEST(AbaqusDeck, has_temperatures_of_parts_and_turning_ones) {
   const std::string hot = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 293.\n*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n";
   const auto deck_of = [&](const std::string& expansion, const std::string& load) {
