@@ -73,16 +73,40 @@ def is_ring(parts, joints):
         and all(high[i] - low[i] > -1e-9 for i in range(3))
 
 
+def runs_inside(low, high, centre, axis):
+    """Does a line along an axis run inside a rectangle, a fifth of its size from its rim at least?"""
+    return all(low[i] + 0.2 * (high[i] - low[i]) < centre[i] < high[i] - 0.2 * (high[i] - low[i]) for i in range(3) if i != axis)
+
+
+def verges_on_wall(scene, part, face):
+    """Does the line of a pressure pass by, or run along the rim of, a wall that alone stands behind the part and those tied to it?"""
+    together = {part}
+    pairs = [{joint["a"][0], joint["b"][0]} for joint in scene["joints"] if joint["law"] != "contact"]
+    while any(len(pair & together) == 1 for pair in pairs):
+        together |= set().union(*(pair for pair in pairs if pair & together))
+    if len(scene["supports"]) != 1 or scene["supports"][0]["kind"] != "wall":
+        return False
+    centre = geometry.centre_of_face(scene["parts"][part], face)
+    for on, behind in scene["supports"][0]["on"]:
+        if on in together and behind == geometry.opposite(face):
+            low, high = ([geometry.ends(scene["parts"][on], i)[end] for i in range(3)] for end in (0, 1))
+            if not runs_inside(low, high, centre, geometry.axis_of(face)):
+                return True
+    return False
+
+
 def verges(scene, load):
     """Does a pressure hold its part on a contact by a force whose line passes the contact's rectangle by, or runs along its rim?"""
     if load["kind"] != "pressure":
         return False
     part, face = load["on"]
+    if verges_on_wall(scene, part, face):
+        return True
     for joint in scene["joints"]:
         sides = {joint["a"][0]: joint["a"][1], joint["b"][0]: joint["b"][1]}
         if joint["law"] == "contact" and sides.get(part) == geometry.opposite(face):
             (low, high), centre = geometry.in_common(scene["parts"], joint), geometry.centre_of_face(scene["parts"][part], face)
-            if any(not low[i] + 0.2 * (high[i] - low[i]) < centre[i] < high[i] - 0.2 * (high[i] - low[i]) for i in range(3) if i != geometry.axis_of(face)):
+            if not runs_inside(low, high, centre, geometry.axis_of(face)):
                 return True
     return False
 
