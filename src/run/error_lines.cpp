@@ -26,9 +26,8 @@ std::string tolerance_line(const Problem& problem, const RunResult& result) {
   const double others = std::max(figures.time_step_error.value_or(0.0), *figures.mesh_error);
   if (most < many || left > beside * others) return "";
   return fmt::format(
-      "  solver.latin{{ tolerance = {:g} }} would need fewer than these {:.0f} iterations an increment: they would "
-      "leave "
-      "about {:.1g} %, and dt and mesh leave {:.2g} %",
+      "  solver.latin{{ tolerance = {:g} }} would need fewer than these {:.0f} iterations an increment: it would leave "
+      "about {:.1g} %, where dt and mesh leave {:.2g} %",
       enough, most, left, others);
 }
 
@@ -47,8 +46,7 @@ std::vector<std::string> error_lines(const Problem& problem, const RunResult& re
   if (figures.mesh_frequency_error)
     lines.push_back(fmt::format(
         "  use these to choose dt and mesh, since lags accumulate in them; errors to report: a frequency is off by "
-        "{:.2g} % (time "
-        "step) and {:.2g} % (mesh), an amplitude by {:.2g} % (mesh), a spectrum by its band",
+        "{:.2g} % (time step) and {:.2g} % (mesh), an amplitude by {:.2g} % (mesh), a spectrum by its band",
         figures.step_frequency_error.value(), *figures.mesh_frequency_error, figures.mesh_amplitude_error.value()));
   if (figures.mesh_frequency_error && contacts_change(problem, result.contacts))
     lines.push_back(
