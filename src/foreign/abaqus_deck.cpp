@@ -196,19 +196,38 @@ class AbaqusDeck : public ImportedDeck {
                        comma_list(values));
   }
 
+  // A motion in a step, and the nodes that it moves.
+  struct MovedIn {
+    size_t step;
+    std::array<bool, 3> along;
+    std::set<int> points;
+  };
+
   // What a later step moves is no support until then: it is driven to stay where it is.
   void drive_what_moves_later() {
+    std::vector<MovedIn> moved;
+    std::set<int> moved_points;
+    for (size_t step = 0; step < analysis_.steps.size(); ++step)
+      for (const FileAction& by : analysis_.steps[step].actions)
+        if (by.kind == Kind::moved) {
+          moved.push_back({step, by.along, points_of(by)});
+          moved_points.insert(moved.back().points.begin(), moved.back().points.end());
+        }
+    if (moved.empty()) return;
     for (size_t i = 0; i <= analysis_.steps.size(); ++i) {
       std::vector<FileAction>& actions = i == 0 ? analysis_.before : analysis_.steps[i - 1].actions;
       std::vector<FileAction> driven;
       for (FileAction& action : actions) {
         if (action.kind != Kind::held || action.stays) continue;
+        const std::set<int> points = points_of(action);
+        if (!have_common(points, moved_points)) continue;
         FileAction still = action;
         still.kind = Kind::moved;
         still.value.setZero();
         still.along = {};
-        for (size_t step = i; step < analysis_.steps.size(); ++step)
-          for (const FileAction& by : analysis_.steps[step].actions) let_go(action, by, i == 0 && step == 0, still);
+        for (const MovedIn& by : moved)
+          if (by.step >= i && have_common(points, by.points))
+            let_go(action, by, i == 0 && by.step == 0 && by.points == points, still);
         if (still.along != nothing) driven.push_back(std::move(still));
       }
       std::erase_if(actions,
@@ -217,15 +236,16 @@ class AbaqusDeck : public ImportedDeck {
     }
   }
 
-  // From what is held to what stands still until `by` moves it; at once: there is no step before.
-  void let_go(FileAction& held, const FileAction& by, bool is_at_once, FileAction& still) const {
-    if (by.kind != Kind::moved) return;
-    const std::set<int> points = points_of(held), moved = points_of(by);
-    if (std::none_of(moved.begin(), moved.end(), [&](int point) { return points.contains(point); })) return;
+  static bool have_common(const std::set<int>& a, const std::set<int>& b) {
+    return std::any_of(a.begin(), a.end(), [&](int point) { return b.contains(point); });
+  }
+
+  // From what is held to what stands still until it is moved; at once: there is no step before.
+  static void let_go(FileAction& held, const MovedIn& by, bool is_at_once, FileAction& still) {
     for (size_t d = 0; d < 3; ++d) {
       if (!held.along[d] || !by.along[d]) continue;
       held.along[d] = false;
-      still.along[d] = !is_at_once || moved != points;
+      still.along[d] = !is_at_once;
     }
   }
 
