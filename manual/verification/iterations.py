@@ -73,6 +73,11 @@ def main():
     masses = ("lumped", "tuned")
     print_table(["`crush.lua`, mass"] + list(masses), [["shot"] + [iterations(program, "crush.lua", {}, implicit(f'mass = "{m}"')) for m in masses]])
 
+    pads = ("6*MPa", "0.5*GPa", "20*GPa", "200*GPa")
+    facets = {"8, 3.7, 5 mm": {}, "3, 6, 3 mm": {"lower": "3*mm", "middle": "6*mm", "upper": "3*mm"}}
+    print_table(["`bonded_stack.lua`, facets"] + list(pads),
+                [[name] + [iterations(program, "verification/bonded_stack.lua", {"young": e, **of}, implicit()) for e in pads] for name, of in facets.items()])
+
     sizes = ("4*mm", "2*mm", "1.5*mm") if arguments.flanges else ("4*mm",)
     print_table(["bolted flanges"] + list(sizes), [["tighten, shock"] + [iterations(program, "bench/even_flanges.lua", {"size": s}, implicit()) for s in sizes]])
 

@@ -86,6 +86,38 @@ std::vector<ElasticTensor> mean_tensors(const StepModel& model) {
   return tensors;
 }
 
+bool is_bonded_between_implicit(const StepModel& model, const Point& point) {
+  if (!point.law || !point.law->is_tie() || point.is_wall) return false;
+  for (int p = point.first_port; p < point.end_port; ++p)
+    if (model.integration.is_explicit_piece(model.exchange.ports[static_cast<size_t>(p)].piece)) return false;
+  return true;
+}
+
+// Both sides of a bonded point get their geometric mean (manual, eq. K14), rounded so that equal pieces beside equal
+// ones stay equal.
+void bring_bonded_sides_together(const StepModel& model, Vec& k) {
+  constexpr double steps = 32.0;  // in a factor of two
+  const Exchange& exchange = model.exchange;
+  const Vec own = k;
+  for (const Point& point : exchange.points) {
+    if (!is_bonded_between_implicit(model, point)) continue;
+    for (int d = 0; d < 3; ++d) {
+      const auto for_each_port = [&](auto&& visit) {
+        for (int p = point.first_port; p < point.end_port; ++p)
+          if (const Port& port = exchange.ports[static_cast<size_t>(p)]; port.unknown[d] >= 0)
+            visit(port, model.assembled_unknown(port, d), p < point.first_port_2);
+      };
+      double sums[2] = {0.0, 0.0};
+      for_each_port([&](const Port&, int at, bool is_first) { sums[is_first ? 0 : 1] += own[at]; });
+      if (!(sums[0] > 0.0 && sums[1] > 0.0)) continue;
+      const double half = std::round(steps * std::log2(sums[1] / sums[0]) / 2.0) / steps;
+      for_each_port([&](const Port& port, int at, bool is_first) {
+        if (model.solves(port.piece)) k[at] *= std::exp2(is_first ? half : -half);
+      });
+    }
+  }
+}
+
 // The axes of the point that each port is at, the normal first.
 std::vector<const Mat3*> frames_of_ports(const Exchange& exchange) {
   std::vector<const Mat3*> frames(exchange.ports.size(), nullptr);
@@ -142,6 +174,10 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
     }
   }
   model.unknowns.complete(k.data());
+  if (!model.scheme.is_static && n_window <= 5) {
+    bring_bonded_sides_together(model, k);
+    model.unknowns.complete(k.data());
+  }
   return multiplier * k;
 }
 

@@ -191,13 +191,17 @@ std::vector<EqualTo> same_pieces(const StepModel& model, const std::vector<Piece
       earlier->integration.n_substeps != model.integration.n_substeps)
     return {};
   std::vector<EqualTo> same(setups.size());
+  bool has_other = false;
   for (const int i : model.here) {
     const Piece& piece = *earlier->pieces[static_cast<size_t>(i)];
     if (model.integration.is_explicit_piece(i))
       same[i].op = same_explicit(setups[i], piece);
     else
-      same[i].same = same_implicit(setups[i], piece);
+      has_other |= !(same[i].same = same_implicit(setups[i], piece));
   }
+  // Search directions of bonded sides follow the piece on the other side in dynamic steps, and operators follow them.
+  if (!model.scheme.is_static && ranks::any(has_other))
+    for (EqualTo& of_piece : same) of_piece.same = nullptr;
   return same;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -61,6 +62,31 @@ TEST(SearchDirections, of_a_dynamic_step_stand_between_the_schur_complement_and_
       const double step = std::hypot(0.5 * wave, piece.node_masses()[port.piece_node] / direction_dt);
       EXPECT_NEAR(k[i], std::pow(piece.schur_diagonal()[port.unknown[d]], 0.75) * std::pow(step, 0.25), 1e-12 * k[i]);
     }
+}
+
+// Faces that do not match: a bond has one k for both sides, a contact one for each.
+TEST(SearchDirections, are_one_for_both_sides_of_a_bond_in_a_dynamic_step) {
+  const auto ratios = [](const LawPtr& law, StepPtr step) {
+    Problem problem = two_cubes(law, {std::move(step)}, 3);
+    const BlockPtr top = block("top", {0.001, 0.001, 0.01}, {0.008, 0.008, 0.01}, {2, 2, 2});
+    problem.substructures[1] = top;
+    problem.interfaces = {interface("between", Face{problem.substructures[0], "zmax"}, face(top, "zmin"), law)};
+    const Modelled of(std::move(problem));
+    const Vec k = search_directions(of.model, 1.0, 1);
+    std::vector<double> found;
+    for (const Point& point : of.model.exchange.points)
+      for (int d = 0; d < 3; ++d)
+        found.push_back(k[of.model.unknown(of.model.exchange.ports[point.first_port], d)] /
+                        k[of.model.unknown(of.model.exchange.ports[point.first_port_2], d)]);
+    EXPECT_FALSE(found.empty());
+    return found;
+  };
+  for (const double ratio : ratios(bonded(), dynamic_step("test", 4, direction_dt, {})))
+    EXPECT_NEAR(std::abs(std::log2(ratio)), 0.0, 1.01 / 32.0);
+  const std::vector<double> of_contact = ratios(contact(0.3), dynamic_step("test", 4, direction_dt, {}));
+  const std::vector<double> of_static = ratios(bonded(), static_step("test", 1, {}));
+  for (const std::vector<double>& others : {of_contact, of_static})
+    EXPECT_GT(*std::max_element(others.begin(), others.end()), 1.1);
 }
 
 TEST(StepSettings, follow_the_table_and_what_the_deck_says) {
