@@ -17,7 +17,7 @@ PICTURES = ROOT / "manual/pictures"
 BOX = {
     "verdict": ("", "", 1120, 740),
     "assembly": ("The assembly", "figure:not(:nth-of-type(2)):not(:nth-of-type(6)) { display: none }", 1120, 720),
-    "spectra": ("Shock response spectra", "figure:nth-of-type(n+2) { display: none }", 1120, 620),
+    "spectra": ("Shock response spectra", "section > p { display: none }", 1120, 900),
     "bolts": ("Bolts", "details { display: none }", 1120, 640),
 }
 UNIT = {

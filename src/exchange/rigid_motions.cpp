@@ -14,15 +14,21 @@
 
 namespace dygita {
 
-namespace {
-
-std::string describe(const RigidMotion& motion) {
-  const char* names[] = {"translation along x", "translation along y", "translation along z",
-                         "rotation about x",    "rotation about y",    "rotation about z"};
-  int largest = 0;
-  motion.cwiseAbs().maxCoeff(&largest);
-  return names[largest];
+std::string name_of(const RigidMotion& motion) {
+  constexpr double along_axis = 0.99;  // cosine
+  const Vec3 translation = motion.head<3>(), rotation = motion.tail<3>();
+  const bool is_translation = translation.norm() >= rotation.norm();
+  const Vec3 axis = (is_translation ? translation : rotation).normalized();
+  int nearest = 0;
+  const bool is_along_one = axis.cwiseAbs().maxCoeff(&nearest) > along_axis;
+  const double thousand = axis[nearest] < 0.0 ? -1e3 : 1e3;
+  const Vec3 shown = ((thousand * axis).array().round() + 0.0) / 1e3;
+  return (is_translation ? "translation along " : "rotation about ") +
+         (is_along_one ? std::string(1, "xyz"[nearest])
+                       : fmt::format("({:g}, {:g}, {:g})", shown[0], shown[1], shown[2]));
 }
+
+namespace {
 
 // The turn of a sector about the axis of its ring, which, seen from the sector's middle, is a translation above all.
 std::optional<RigidMotion> turn_of_ring(const Problem& problem, const RigidFrame& frame) {
@@ -41,7 +47,7 @@ constexpr double nearly_all = 0.99;  // of a motion, that it is another
 std::string describe(const Problem& problem, const RigidFrame& frame, const RigidMotion& motion) {
   const auto turn = turn_of_ring(problem, frame);
   const bool is_turn = turn && std::abs(turn->dot(motion)) > nearly_all * motion.norm();
-  return is_turn ? "rotation about the axis of the ring" : describe(motion);
+  return is_turn ? "rotation about the axis of the ring" : name_of(motion);
 }
 
 // Blocks of 6 x 6, of each body and of each two that a constraint joins.
@@ -285,7 +291,7 @@ std::pair<int, double> most_driven(const Vec& driven) {
   return most;
 }
 
-// Names for as many motions as a body (6 x n) has: those that they are nearest to.
+// Names for as many motions as a body (6 x n) has: first those nearest to an axis.
 std::vector<std::string> names_of(const Problem& problem, const RigidFrame& frame, const Mat& motions) {
   Mat left = orthonormal(motions);
   std::vector<std::string> names;
@@ -300,7 +306,9 @@ std::vector<std::string> names_of(const Problem& problem, const RigidFrame& fram
   while (static_cast<Eigen::Index>(names.size()) < motions.cols()) {
     int nearest = 0;
     left.rowwise().squaredNorm().maxCoeff(&nearest);
-    take(left.row(nearest).transpose().normalized(), describe(RigidMotion::Unit(nearest)));
+    const Vec share = left.row(nearest).transpose().normalized();
+    const RigidMotion motion = left * share;
+    take(share, name_of(motion));
   }
   return names;
 }

@@ -8,6 +8,10 @@
 
 namespace dygita {
 
+// "translation along x", "rotation about (0.866, 0.5, 0)": by the larger of its two parts, along an axis where it is
+// within 8 degrees of one.
+std::string name_of(const RigidMotion& motion);
+
 // Does the substructure have a rigid motion that its own supports leave free?
 bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& held);
 

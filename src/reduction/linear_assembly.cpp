@@ -9,6 +9,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "exchange/rigid_motions.hpp"
 #include "fem/mass.hpp"
 #include "law/law.hpp"
 #include "numerics/dense.hpp"
@@ -400,9 +401,8 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
   const Vec motion = weight.cwiseProduct(eigen.vectors.col(0));
   int at = 0;
   motion.cwiseAbs().maxCoeff(&at);
-  const char* names[] = {"translation along x", "translation along y", "translation along z",
-                         "rotation about x",    "rotation about y",    "rotation about z"};
-  return std::string(names[at % 6]) + " of substructure '" + problem.substructures[at / 6]->name + "'";
+  const RigidMotion of_part = motion.segment<6>(6 * (at / 6));
+  return name_of(of_part) + " of substructure '" + problem.substructures[static_cast<size_t>(at / 6)]->name + "'";
 }
 
 const Step* step_about(const Problem& problem, const StepPtr& named) {

@@ -42,7 +42,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
      {"base", "ranks", "numerics", "meeting", "fem", "law", "model", "interfaces", "partition", "exchange", "step",
       "result"}},
     {"estimates", {"base", "numerics", "signal", "fem", "model", "pieces", "result", "watch"}},
-    {"reduction", {"base", "numerics", "mesh", "fem", "law", "model", "step", "result", "watch"}},
+    {"reduction", {"base", "numerics", "mesh", "fem", "law", "model", "exchange", "step", "result", "watch"}},
     {"recording",
      {"base", "numerics", "signal", "meeting", "fem", "law", "model", "step", "result", "watch", "estimates",
       "reduction"}},

@@ -201,6 +201,34 @@ TEST(InertiaRelief, is_named_where_nothing_holds_what_is_loaded) {
   }
 }
 
+// A box turned by 30 degrees between two planes of symmetry of its own: it slides along the edge where they meet.
+TEST(FreeMotion, is_named_along_its_own_axis) {
+  const std::string sliding = R"(
+local p = param{ loaded = 0 }
+local metal = material.elastic{ name = "metal", young = 200*GPa, poisson = 0.3, density = 8000 }
+local bar = substructure{ name = "bar", material = metal, place = { rotate = { axis = { 0, 0, 1 }, angle = 30*deg } },
+  mesh = mesh.box{ size = { 50*mm, 20*mm, 20*mm }, cells = { 2, 1, 1 } } }
+local across = support.symmetry{ name = "across", on = bar:face "ymin" }
+local below = support.symmetry{ name = "below", on = bar:face "zmin" }
+local along = load.force{ on = bar:face "xmax", x = 10*p.loaded }
+problem{ name = "sliding", substructures = { bar }, supports = { across, below }, steps = { step.static{ name = "pull", loads = p.loaded == 1 and { along } or {} } },
+  outputs = { output.energy{} } }:run{}
+)";
+  try {
+    run_text(sliding, {{"loaded", "1"}}, 1);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("translation along (0.866, 0.5, 0) of substructure 'bar' is loaded, but "),
+              std::string::npos)
+        << error.what();
+  }
+  testing::internal::CaptureStderr();
+  run_text(sliding, {}, 1);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("translation along (0.866, 0.5, 0) of substructure 'bar' is unconstrained"), std::string::npos)
+      << told;
+}
+
 // A box of two glued halves, turned, pushed at an edge: it turns, too. kind 1: held, by a wall of symmetry.
 const std::string pushed = R"(
 local p = param{ kind = 0 }
