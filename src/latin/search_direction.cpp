@@ -1,5 +1,6 @@
 #include "latin/search_direction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -93,10 +94,10 @@ bool is_bonded_between_implicit(const StepModel& model, const Point& point) {
   return true;
 }
 
-// Both sides of a bonded point get their geometric mean (manual, eq. K14), rounded so that equal pieces beside equal
-// ones stay equal.
+// Both sides of a bonded point get their geometric mean, but none more than a factor of its own (manual, eq. K14);
+// rounded so that equal pieces beside equal ones stay equal.
 void bring_bonded_sides_together(const StepModel& model, Vec& k) {
-  constexpr double steps = 32.0;  // in a factor of two
+  constexpr double steps = 32.0, most = 2.0;  // in a factor of two; twos in the factor
   const Exchange& exchange = model.exchange;
   const Vec own = k;
   for (const Point& point : exchange.points) {
@@ -110,7 +111,7 @@ void bring_bonded_sides_together(const StepModel& model, Vec& k) {
       double sums[2] = {0.0, 0.0};
       for_each_port([&](const Port&, int at, bool is_first) { sums[is_first ? 0 : 1] += own[at]; });
       if (!(sums[0] > 0.0 && sums[1] > 0.0)) continue;
-      const double half = std::round(steps * std::log2(sums[1] / sums[0]) / 2.0) / steps;
+      const double half = std::clamp(std::round(steps * std::log2(sums[1] / sums[0]) / 2.0) / steps, -most, most);
       for_each_port([&](const Port& port, int at, bool is_first) {
         if (model.solves(port.piece)) k[at] *= std::exp2(is_first ? half : -half);
       });
