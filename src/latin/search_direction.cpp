@@ -94,10 +94,10 @@ bool is_bonded_between_implicit(const StepModel& model, const Point& point) {
   return true;
 }
 
-// Both sides of a bonded point get their geometric mean, but none more than a factor of its own (manual, eq. K14);
+// Both sides of a bonded point come together to their geometric mean, by a factor of four at most (manual, eq. K14);
 // rounded so that equal pieces beside equal ones stay equal.
 void bring_bonded_sides_together(const StepModel& model, Vec& k) {
-  constexpr double steps = 32.0, most = 2.0;  // in a factor of two; twos in the factor
+  constexpr double steps = 32.0, most = 2.0;  // steps in a factor of two; factors of two
   const Exchange& exchange = model.exchange;
   const Vec own = k;
   for (const Point& point : exchange.points) {
