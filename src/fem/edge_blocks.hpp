@@ -1,5 +1,6 @@
 // A stiffness by edges: of each pair of neighbours the force that their difference makes. There are no diagonal blocks,
-// since a translation has no force: it has none here either, however coarsely the blocks are stored.
+// since a translation has no force: it has none here either, however coarsely the blocks are stored. A turn of the whole
+// has no moment and no force in sum.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,9 @@ namespace dygita {
 // four numbers a node, the fourth of them zero: what a register takes.
 class EdgeBlocks {
  public:
-  // stiffness: symmetric, 3n x 3n, with the 3x3 block pattern of `assemble`, rows adding up to zero.
-  explicit EdgeBlocks(const SparseMatrix& stiffness);
+  // stiffness: symmetric, 3n x 3n, with the 3x3 block pattern of `assemble`, rows adding up to zero. places: of the
+  // nodes, 3 x n, m.
+  EdgeBlocks(const SparseMatrix& stiffness, const Points& places);
 
   int n_nodes() const { return static_cast<int>(starts_.size()) - 1; }
   // y += K x, both 4 n long.
@@ -22,6 +24,8 @@ class EdgeBlocks {
   double bytes() const { return 4.0 * static_cast<double>(starts_.size() + others_.size() + blocks_.size()); }
 
  private:
+  void balance_turns(const Points& places);
+
   std::vector<int> starts_, others_;
   std::vector<float> blocks_;
 };

@@ -85,7 +85,8 @@ class Integrator {
     const int first = face_.first_part[facet], end = face_.first_part[facet + 1];
     std::vector<PartOfFacet> parts;
     for (int part = first; part < end; ++part) parts.push_back(part_of_facet(part));
-    const auto is_whole = [](const PartOfFacet& part) { return part.is_whole || part.segments.empty(); };
+    // Of half a facet, a function of all of it may have a negative integral, and no area for its point.
+    const auto is_whole = [](const PartOfFacet& part) { return part.is_whole; };
     if (shape.has_own_multipliers && std::all_of(parts.begin(), parts.end(), is_whole))
       return {of_parts(facet, parts, {}, face_.facets[facet])};
     std::vector<Coupling> couplings;

@@ -47,7 +47,7 @@ StoredMatrices::StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps
     last_ = held_ = taken(std::move(matrices.stiffness));
     return;
   }
-  last_edges_ = held_edges_ = std::make_shared<const EdgeBlocks>(matrices.stiffness);
+  last_edges_ = held_edges_ = std::make_shared<const EdgeBlocks>(matrices.stiffness, mesh_->nodes);
   if (!memory) return;
   memory->swap(matrices.stiffness);
   spares->give(std::move(memory));
@@ -72,7 +72,7 @@ std::shared_ptr<const EdgeBlocks> StoredMatrices::edges() const {
   const StiffnessPtr stiffness = this->stiffness();
   const std::lock_guard<std::mutex> lock(mutex_);
   std::shared_ptr<const EdgeBlocks> edges = last_edges_.lock();
-  if (!edges) edges = std::make_shared<const EdgeBlocks>(*stiffness);
+  if (!edges) edges = std::make_shared<const EdgeBlocks>(*stiffness, mesh_->nodes);
   last_edges_ = edges;
   held_edges_ = edges;
   return edges;

@@ -11,6 +11,7 @@
 #include "base/log.hpp"
 #include "base/memory.hpp"
 #include "base/union_find.hpp"
+#include "exchange/torn_ties.hpp"
 #include "law/law.hpp"
 #include "partition/all_pieces.hpp"
 #include "step/assembled_system.hpp"
@@ -184,7 +185,7 @@ NodeMotions moved_nodes(const Problem& problem, const Step& step, const State& s
   return moved;
 }
 
-// What is free to move, and where it is pinned, is a matter of the substructures.
+// Free motions, and where they are pinned, depend on the substructures.
 void free_motions_of(StepModel& model, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies) {
   const Problem& problem = *model.problem;
   const Step& step = *model.step;
@@ -221,6 +222,7 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   const Reach reach =
       solves_all ? Reach() : Reach(problem, step, *cut, surfaces, is_explicit, solved_everywhere(model));
   model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions, is_explicit, reach);
+  refuse_torn_ties(problem, step, model.conditions, surfaces, model.exchange);
   split_loads(model);
   model.offset.assign(1, 0);
   for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);

@@ -1,6 +1,7 @@
 // Products by edges, with every kind of kernels that this processor has, against the plain matrix.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <random>
 #include <tuple>
 
@@ -8,6 +9,7 @@
 #include "fem/element.hpp"
 #include "fem/mass_edges.hpp"
 #include "fem/meshes.hpp"
+#include "mesh/box.hpp"
 #include "numerics/panel_choice.hpp"
 
 namespace dygita::test {
@@ -20,8 +22,9 @@ class Edges : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(Edges, multiply_as_the_matrix_does_within_what_single_precision_stores) {
-  const BodyMatrices body = assemble(distorted_mixed_box(), material_of(2.1e11, 0.3, 7800.0));
-  const EdgeBlocks edges(body.stiffness);
+  const Mesh mesh = distorted_mixed_box();
+  const BodyMatrices body = assemble(mesh, material_of(2.1e11, 0.3, 7800.0));
+  const EdgeBlocks edges(body.stiffness, mesh.nodes);
   const int n = edges.n_nodes();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -105,8 +108,9 @@ TEST_P(Edges, of_masses_are_what_consistent_mass_takes_along_the_edges_of_hexahe
 }
 
 TEST_P(Edges, leave_a_translation_without_force_and_the_whole_without_a_resultant) {
-  const BodyMatrices body = assemble(distorted_mixed_box(), material_of(2.1e11, 0.3, 7800.0));
-  const EdgeBlocks edges(body.stiffness);
+  const Mesh mesh = distorted_mixed_box();
+  const BodyMatrices body = assemble(mesh, material_of(2.1e11, 0.3, 7800.0));
+  const EdgeBlocks edges(body.stiffness, mesh.nodes);
   const int n = edges.n_nodes();
   std::vector<double> x(4 * n, 0.0), y(4 * n, 0.0);
   for (int i = 0; i < n; ++i)
@@ -121,6 +125,35 @@ TEST_P(Edges, leave_a_translation_without_force_and_the_whole_without_a_resultan
     size += std::abs(y[4 * i]);
   }
   EXPECT_LT(std::abs(sum), 1e-14 * size);
+}
+
+// Beside forces on nodes, which single precision leaves.
+TEST_P(Edges, leave_a_turn_without_force_in_sum_and_moment) {
+  for (const CellShape& shape : cell_shapes) {
+    SCOPED_TRACE(shape.name);
+    MeshPtr box = box_mesh(Vec3(0.3, 0, 0), Vec3(0.03, 0.02, 0.01), {3, 2, 2}, shape.type);
+    Mesh mesh = *box;
+    mesh.nodes = (Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix() * mesh.nodes).eval();
+    const BodyMatrices body = assemble(mesh, material_of(2.1e11, 0.3, 7800.0));
+    const EdgeBlocks edges(body.stiffness, mesh.nodes);
+    const int n = edges.n_nodes();
+    const Vec3 centre = mesh.nodes.rowwise().mean();
+    const double stiffness = body.stiffness.diagonal().maxCoeff(), length = 0.03;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> x(4 * n, 0.0), y(4 * n, 0.0);
+      for (int i = 0; i < n; ++i)
+        Eigen::Map<Vec3>(x.data() + 4 * i) = Vec3::Unit(axis).cross(mesh.nodes.col(i) - centre);
+      edges.add_product(x.data(), y.data());
+      Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+      for (int i = 0; i < n; ++i) {
+        const Vec3 own = Eigen::Map<const Vec3>(y.data() + 4 * i);
+        force += own;
+        moment += (mesh.nodes.col(i) - centre).cross(own);
+      }
+      EXPECT_LT(force.norm(), 1e-8 * stiffness * length);
+      EXPECT_LT(moment.norm(), 1e-8 * stiffness * length * length);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Available, Edges, ::testing::ValuesIn(available_panel_kernels()),

@@ -212,6 +212,24 @@ TEST(Mortar, keeps_forces_moments_linear_fields_and_constant_pressures_between_a
       }
 }
 
+// Sub-facets that are covered altogether beside such that nothing faces: a function of all of the facet would have a
+// negative integral over the half of it that is covered, and its point no area.
+TEST(Mortar, of_facets_whose_half_is_covered_has_the_area_of_the_overlap) {
+  for (const CellShape& shape : cell_shapes)
+    for (const double offset : {0.5, 0.25, 0.4})
+      for (const Carrier carrier : {Carrier::automatic, Carrier::first, Carrier::second}) {
+        SCOPED_TRACE(testing::Message() << shape.name << ' ' << offset << ' ' << static_cast<int>(carrier));
+        const Mesh low = *box_mesh(Vec3(0, 0, 0), Vec3(6, 2, 1), {6, 2, 1}, shape.type);
+        const Mesh up = *box_mesh(Vec3(2 + offset, 0, 1), Vec3(1, 2, 1), {1, 1, 1}, shape.type);
+        const PlacedFace side_1 = face(low, "zmax"), side_2 = face(up, "zmin");
+        const Facing facing = points_between(side_1, side_2, {0.0, carrier, false});
+        EXPECT_NEAR(facing.areas.sum(), 2.0, 1e-12);
+        EXPECT_GT(facing.areas.minCoeff(), 0.0);
+        expect_balanced(facing, side_1, side_2, 1e-9);
+        expect_consistent_loads(facing, facing.side_2, side_2, 1e-10);
+      }
+}
+
 // Weights of a point at a corner and on an edge of one facet of order two against another of its kind.
 TEST(Mortar, of_facets_of_order_two_has_the_points_of_their_sub_facets) {
   const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, CellType::hex20);

@@ -37,7 +37,7 @@ TEST(StoredMatrices, are_there_as_long_as_somebody_holds_them_and_assembled_agai
 
 TEST(StoredMatrices, have_the_edges_of_the_matrix_before_and_after) {
   const MeshPtr mesh = stored_mesh();
-  const EdgeBlocks plain(assemble(*mesh, steel()).stiffness);
+  const EdgeBlocks plain(assemble(*mesh, steel()).stiffness, mesh->nodes);
   const Vec x = Vec::Random(4 * mesh->n_nodes());
   const auto times = [&](const EdgeBlocks& edges) {
     Vec y = Vec::Zero(x.size());
@@ -68,7 +68,7 @@ TEST(StoredMatrices, in_memory_of_others_are_the_same_to_the_bit) {
     EXPECT_EQ(again.mass, plain.mass);
     EXPECT_EQ(memory->nonZeros(), 0);
     const StoredMatrices stored(mesh, steel(), false, &spares);
-    const EdgeBlocks edges(plain.stiffness);
+    const EdgeBlocks edges(plain.stiffness, mesh->nodes);
     const Vec x = Vec::Random(4 * mesh->n_nodes());
     Vec y = Vec::Zero(x.size()), y_plain = y;
     stored.edges()->add_product(x.data(), y.data());

@@ -60,7 +60,7 @@ def check_books(trial):
     told = not_an_answer(run)
     if told:
         return told
-    found = books.energy(trial.scene, run, compare.floors(trial.scene)["energy"]) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run)
+    found = books.energy(trial.scene, run, compare.floors(trial.scene)["energy"]) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run) + books.areas(trial.scene, run)
     return judged(found)
 
 
@@ -68,7 +68,7 @@ def check_books(trial):
 def check_books_of_monolithic(trial):
     run = trial.run("monolithic", solver="monolithic{}", spoiled=True)
     told = not_an_answer(run)
-    return told or judged(books.energy(trial.scene, run, compare.floors(trial.scene)["energy"]) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run))
+    return told or judged(books.energy(trial.scene, run, compare.floors(trial.scene)["energy"]) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run) + books.areas(trial.scene, run))
 
 
 @relation("monolithic", "exact: one discrete problem, two methods, where all is implicit", manners=("implicit",))

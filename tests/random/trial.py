@@ -39,6 +39,7 @@ class Trial:
         self.program, self.folder, self.scene, self.spoil = program, folder, scene, spoil
         self.sharing = compare.sharing_joints(scene)
         self.smooth = {joint["name"] for joint in scene["joints"] + scene["supports"] if joint["args"].get("friction") == 0}
+        self.is_pressed_first = scene["steps"][0]["kind"] == "static"
         self.known, self.moves = {}, None
 
     def run(self, name, scene=None, solver=None, spoiled=False, **words):
@@ -62,9 +63,9 @@ class Trial:
         return self.run("base")
 
     def leave_out(self, table, column):
-        """Forces and works of joints that share them with others are not unique; motions are. Where nothing rubs slip is counted at points that touch, which round-off decides."""
+        """Forces and works of joints that share them with others are not unique; motions are. Slip is counted from the first touch: round-off decides it where nothing rubs or nothing was pressed at first."""
         joint = table.partition("_")[2]
-        return table[0] in "rj" and (joint in self.sharing or column == "slip" and joint in self.smooth)
+        return table[0] in "rj" and (joint in self.sharing or column == "slip" and (joint in self.smooth or not self.is_pressed_first))
 
     def sensitivity(self):
         """By kind of quantity: what the answer moves by where loads are changed by 1e-7, and where it is iterated ten times less closely."""

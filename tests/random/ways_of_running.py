@@ -6,7 +6,7 @@ import compare
 import deck
 import geometry
 import variations
-from relations import has_dynamic, loads_of, relation, rng_of
+from relations import has_dynamic, loads_of, relation, rng_of, within_error_of_mesh
 from trial import EXACT, fails, holds, not_an_answer, undecided
 
 
@@ -70,7 +70,11 @@ def check_condensed(trial):
     (folder / "condensed").mkdir(parents=True, exist_ok=True)
     for file in results.glob("element*"):
         shutil.copy(file, folder / "condensed")
-    return trial.compare(trial.run("condensed", condensed=i, spoiled=True), allowed=10 * EXACT)
+    # A superelement has no material, which decides between faces that are alike: its own have the points in both runs.
+    scene = variations.with_points(trial.scene, lambda _, joint: "first" if joint["a"][0] == i else "second" if joint["b"][0] == i else None)
+    plain = trial.run("to_be_condensed", scene)
+    told = not_an_answer(plain)
+    return told or trial.compare(trial.run("condensed", scene, condensed=i, spoiled=True), scene, against=plain, allowed=10 * EXACT)
 
 
 EXPLICIT = 'explicit{{ penalty = {penalty}, integration = "full", bulk_viscosity = false }}'
@@ -78,7 +82,7 @@ SCHEME = {"length": 0.2, "speed": 0.2, "momentum": 0.2, "force": 0.4}    # of th
 
 
 @relation("explicit", "another scheme and another contact: at a quarter of dt a fifth of the largest motion, two fifths of the largest force, in the mean over time; "
-          "more decides nothing where a quarter of that dt and a contact ten times stiffer bring the two nearer",
+          "more decides nothing where a quarter of that dt and a contact ten times stiffer bring the two nearer, or cells of half the size change as much",
           applies=lambda scene: has_dynamic(scene) and all(part["cell"] in geometry.LINEAR for part in scene["parts"]), share=0.3)
 def check_explicit(trial):
     told, beyond = beyond_scheme(trial, 4, 10)
@@ -88,7 +92,7 @@ def check_explicit(trial):
     kind, worst = max(beyond.items(), key=lambda item: item[1].size)
     if told or kind not in still or still[kind].size < 0.75 * worst.size:
         return undecided("still converging")
-    return fails(f"{kind} {worst} (root mean square)", worst.size)
+    return within_error_of_mesh(trial, fails(f"{kind} {worst} (root mean square)", worst.size))
 
 
 def beyond_scheme(trial, by, penalty):
