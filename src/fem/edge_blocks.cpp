@@ -51,11 +51,12 @@ EdgeBlocks::EdgeBlocks(const SparseMatrix& stiffness, const Points& places) {
 }
 
 // The sums that rounding has left, some 1e-7 of a stiffness, are a spring about where the step began, and a free piece
-// that spins stores energy in it. Entries change by less than the largest is rounded by until none is left; those on
-// the diagonals alone where the whole is symmetric to the bit, as of regular hexahedra: it stays so.
+// that spins stores energy in it. Entries change by as much as each is rounded by until none is left; those on the
+// diagonals alone where the whole is symmetric to the bit, as of regular hexahedra: it stays so.
 void EdgeBlocks::balance_turns(const Points& places) {
   constexpr int n_passes = 3;
-  constexpr double rounding = 1.5e-8, nothing = 1e-13;  // of the largest entry
+  constexpr double rounding = 6e-8;  // of an entry
+  constexpr double nothing = 1e-13;  // of the largest entry
   if (n_nodes() == 0) return;
   const Vec3 centre = places.rowwise().mean();
   const double size = std::sqrt((places.colwise() - centre).colwise().squaredNorm().maxCoeff());
@@ -79,8 +80,8 @@ void EdgeBlocks::balance_turns(const Points& places) {
   for (int pass = 0; pass < n_passes; ++pass)
     for_each_entry([&](float& entry, const TurnSums& own) {
       if (own.isZero(1e-6) || (is_symmetric && !own.head<9>().isZero(0.0))) return true;
-      const double wanted = -sums.dot(own) / own.squaredNorm();
-      const auto changed = static_cast<float>(entry + std::clamp(wanted, -rounding * largest, rounding * largest));
+      const double wanted = -sums.dot(own) / own.squaredNorm(), most = rounding * std::abs(entry);
+      const auto changed = static_cast<float>(entry + std::clamp(wanted, -most, most));
       sums += (static_cast<double>(changed) - static_cast<double>(entry)) * own;
       entry = changed;
       return sums.norm() > nothing * largest;

@@ -1,6 +1,6 @@
 // A stiffness by edges: of each pair of neighbours the force that their difference makes. There are no diagonal blocks,
-// since a translation has no force: it has none here either, however coarsely the blocks are stored. A turn of the whole
-// has no moment and no force in sum.
+// since a translation has no force: it has none here either, however coarsely the blocks are stored. A turn of the
+// whole has no moment and no force in sum.
 #pragma once
 
 #include <vector>
