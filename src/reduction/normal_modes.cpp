@@ -51,8 +51,9 @@ class FreeAssembly {
       : assembly_(assembly), motions_(motions), momenta_(assembly.mass * motions) {
     SparseMatrix held = assembly.stiffness;
     elastic_ = assembly.springs.rows() > 0 ? assembly.cells : SparseMatrix();
+    const Vec own = (elastic_.rows() > 0 ? elastic_ : held).diagonal();
     for (const int i : holding_rows(motions)) {
-      const double pin = elastic_.rows() > 0 ? elastic_.coeff(i, i) : held.coeff(i, i);
+      const double pin = own[i] > 1e-6 * own.mean() ? own[i] : own.mean();  // a rigid body has no stiffness of its own
       held.coeffRef(i, i) += pin;
       if (elastic_.rows() > 0) elastic_.coeffRef(i, i) += pin;
     }

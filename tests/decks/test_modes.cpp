@@ -310,6 +310,43 @@ TEST(Modes, of_faces_that_do_not_match_are_free_to_move_as_a_whole_however_they_
     EXPECT_NEAR(frequencies(flat)[i], frequencies(alike)[i], 0.02 * frequencies(alike)[i]) << i;
 }
 
+// A rigid body has no stiffness by which the assembly could be held while its modes are sought. One of a hundred tons
+// at the end of a beam is a clamp.
+TEST(Modes, of_a_free_beam_with_a_rigid_body_are_those_of_a_clamped_one_where_that_is_heavy) {
+  const std::string text = R"(
+local p = param{ turn = 0, mass = 1e5, rigid = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0, density = 7850 }
+local axis, v = { 1/14^0.5, 2/14^0.5, 3/14^0.5 }, { 0, 0.04, 0.04 }
+local c, s = math.cos(p.turn), math.sin(p.turn)
+local along = axis[1]*v[1] + axis[2]*v[2] + axis[3]*v[3]
+local centre = {}
+for i = 1, 3 do
+  local j, k = i % 3 + 1, (i + 1) % 3 + 1
+  centre[i] = c*v[i] + s*(axis[j]*v[k] - axis[k]*v[j]) + (1 - c)*along*axis[i]
+end
+local bar = substructure{ name = "bar", material = steel, place = { rotate = { axis = axis, angle = p.turn } },
+  mesh = mesh.box{ size = { 1, 0.08, 0.08 }, cells = { 20, 2, 2 }, order = 2 } }
+local block = mass.point{ name = "block", on = bar:face "xmin", mass = p.mass, inertia = { p.mass, p.mass, p.mass }, at = centre,
+  motion = p.rigid == 1 and "rigid" or "mean" }
+problem{ name = "beam", substructures = { bar, block }, steps = { step.static{ name = "rest" } }, outputs = { output.modes{ name = "m", n = 12 } } }:run{}
+)";
+  const std::vector<double> exact = Timoshenko{0.08}.bending_frequencies(2, true);
+  for (const std::string rigid : {"0", "1"})
+    for (const std::string mass : {"1e5", "10"}) {
+      SCOPED_TRACE(rigid + mass);
+      const Settings settings = {{"rigid", rigid}, {"mass", mass}};
+      const DeckRun run = modes_of(text, settings);
+      ASSERT_EQ(value_of(run, "free_motions"), 6);
+      for (const std::string turn : {"0.4", "1.3"}) {
+        Settings turned = settings;
+        turned.emplace_back("turn", turn);
+        expect_same_frequencies(run, modes_of(text, turned), 1e-8);
+      }
+      for (int mode = 0; mode < 2 && mass == "1e5"; ++mode)
+        EXPECT_NEAR(frequencies(run)[6 + 2 * mode], exact[mode], 2e-3 * exact[mode]) << mode;
+    }
+}
+
 TEST(Modes, of_two_bodies_apart_are_twelve_at_rest) {
   const DeckRun apart = modes_of(blocks("contact{ " + faces + ", gap = 10*um }"));
   EXPECT_EQ(value_of(apart, "free_motions"), 12);
