@@ -155,7 +155,7 @@ def momentum(scene, run):
                 alpha = damping.get("mass", 0.0) if damping else 0.0
                 gain = geometry.add(geometry.times(1 / step["dt"] + alpha / 2, p1), geometry.times(-1 / step["dt"] + alpha / 2, p0))
                 # An explicit part takes a time step in several increments: what damping took is then not the mean of both ends.
-                unsure = alpha / 2 * geometry.norm(geometry.add(p1, geometry.times(-1.0, p0)))
+                unsure = alpha * geometry.norm(geometry.add(p1, geometry.times(-1.0, p0)))
                 left = max(0.0, geometry.norm(geometry.add(sums[i], geometry.times(-1.0, gain))) - unsure)
                 worst = max(worst, (left / scale, f"momentum of {part['name']} in step '{step['name']}', time step {n + 1}"))
     return [(worst[1] or "momentum", worst[0], FORCE)]
