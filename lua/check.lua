@@ -10,6 +10,7 @@ local check = {}
 
 local hints = {
   face = 'a face is part:face "group"',
+  face_of_region = "the facets at such nodes are part:face{ where = function(x, y, z) return boolean end }",
   region = "a region is part:where(function(x, y, z) return boolean end)",
   bolt = "a bolt is made of parts and interfaces: bolt.parts, bolt.interfaces, bolt.shank",
   mesh = 'a mesh is mesh.box{ ... } or file:volume "name"',
@@ -101,6 +102,7 @@ end
 
 local function hint_for(kinds, value)
   if bolts.is_bolt(value) then return hints.bolt end
+  if kinds[1] == "face" and native.kind(value) == "region" then return hints.face_of_region end
   if native.kind(value) == "model file" then return 'take one of its parts: file:part "name"' end
   if native.kind(value) == "mesh file" then return 'take one of its volumes: file:volume "name"' end
   return hints[kinds[1]]
