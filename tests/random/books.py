@@ -21,7 +21,7 @@ def largest_energy(table):
     return max([abs(x) for x in stored] + [abs(x) for name in ("kinetic", "strain", "loads") for x in table[name]])
 
 
-def energy(scene, run, floor):
+def energy(scene, run, floor, least_motion=1e-6):
     table = run.tables["energy"]
     scale = max(largest_energy(table), floor)
     found = [("energy balance", max(map(abs, table["balance"])) / scale, ENERGY)]
@@ -39,7 +39,7 @@ def energy(scene, run, floor):
             found.append((f"{name} gives energy in step '{step['name']}'", fall / scale, allowed))
         if step["kind"] == "dynamic":
             # The step by itself, however much a preload has stored.
-            own = max(max(table["kinetic"][i] for i in rows), 1e-6 * scale)
+            own = max(max(table["kinetic"][i] for i in rows), least_motion * scale)
             missing = max(abs(table["balance"][i] - table["balance"][rows[0]]) for i in rows)
             found.append((f"energy balance against the motion of step '{step['name']}'", missing / own, 1e-3))
     return found

@@ -68,7 +68,8 @@ def check_books(trial):
 def check_books_of_monolithic(trial):
     run = trial.run("monolithic", solver="monolithic{}", spoiled=True)
     told = not_an_answer(run)
-    return told or judged(books.energy(trial.scene, run, compare.floors(trial.scene)["energy"]) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run) + books.areas(trial.scene, run))
+    # At rest on a contact its increments leave 1e-10 of the strain energy each, where LATIN's leave none.
+    return told or judged(books.energy(trial.scene, run, compare.floors(trial.scene)["energy"], least_motion=1e-5) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run) + books.areas(trial.scene, run))
 
 
 @relation("monolithic", "exact: one discrete problem, two methods, where all is implicit", manners=("implicit",))
