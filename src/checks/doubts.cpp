@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -13,12 +14,14 @@
 #include "law/law.hpp"
 #include "material/layup.hpp"
 #include "material/strip_stiffness.hpp"
+#include "mesh/condensed_body.hpp"
 #include "mesh/face_nodes.hpp"
 #include "mesh/mean_nodes.hpp"
 #include "model/growth.hpp"
 #include "model/joint_path.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
+#include "model/places.hpp"
 
 namespace dygita::check {
 
@@ -266,11 +269,36 @@ void doubt_whole_bolts(const Problem& problem, const Support& support, const Fac
   }
 }
 
+// A rigid body on a face that ends on the plane moves across it and turns out of it, which its other half would not let
+// it.
+void doubt_rigid_bodies(const Problem& problem, const Support& support, const Face& face) {
+  const std::vector<int> on_plane = nodes_at(face);
+  for (const InterfacePtr& interface : problem.interfaces)
+    for (const auto& [body, other] :
+         {std::pair{&interface->side_1, &interface->side_2}, {&interface->side_2, &interface->side_1}}) {
+      const CondensedBody* matrices = body->part->mesh->inside->matrices();
+      if (!matrices || !matrices->is_rigid() || other->part != face.part) continue;
+      std::vector<int> shared;
+      const std::vector<int> joined = nodes_at(*other);
+      std::set_intersection(on_plane.begin(), on_plane.end(), joined.begin(), joined.end(), std::back_inserter(shared));
+      if (shared.empty()) continue;
+      doubt(
+          problem, support.origin,
+          fmt::format("rigid body '{}' is joined to face '{}', which ends on the plane of {}: that plane does not hold "
+                      "the body, which may move across it and turn out of it; model the whole of what it stands on",
+                      body->part->name, other->label(), describe(support)),
+          {"rigid body on a plane of symmetry", 0.0, "'" + body->part->name + "'", true});
+    }
+}
+
 void doubt_symmetry(const Problem& problem) {
   for (const SupportPtr& support : all_supports(problem)) {
     if (support->kind->holds(true) != Directions::normal || support->kind->law()) continue;
     for (const FaceOrRegion& place : support->on)
-      if (const Face* face = std::get_if<Face>(&place)) doubt_whole_bolts(problem, *support, *face);
+      if (const Face* face = std::get_if<Face>(&place)) {
+        doubt_whole_bolts(problem, *support, *face);
+        doubt_rigid_bodies(problem, *support, *face);
+      }
   }
 }
 

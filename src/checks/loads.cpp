@@ -12,6 +12,7 @@
 #include "checks/parts.hpp"
 #include "checks/prescribed.hpp"
 #include "law/law.hpp"
+#include "mesh/condensed_body.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/load.hpp"
 
@@ -324,6 +325,15 @@ void superelements_feel(const Problem& problem, const Load& load) {
              force->name + ": its effect inside superelement '" + part->name +
                  "' is not known, since its matrices resist that motion because a support was condensed with it",
              "condense it without the support, with the supported face in 'on', and hold it in the deck");
+    for (const SubstructurePtr& part : problem.substructures) {
+      const CondensedBody* body = part->mesh->inside->matrices();
+      const bool is_uniform = force->unit(part->place) == force->unit(part->place + Vec3(1.0, 2.0, 3.0));
+      if (body && !body->is_rigid() && !is_uniform)
+        fail(problem, load.origin,
+             load.path + ": how it loads the inside of superelement '" + part->name +
+                 "' does not follow from its matrices, since it is not uniform",
+             "take the part with its mesh");
+    }
   }
 }
 

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "interfaces/rings.hpp"
 #include "law/law.hpp"
 
 namespace dygita {
@@ -24,22 +23,37 @@ class TornTies {
 
   void refuse() {
     for (const Point& point : exchange_.points) {
-      if (is_bonded(point)) {
-        refuse_apart(point, point.first_port, point.end_port, point.has_law);
-      } else {
-        constexpr std::array<bool, 3> all = {true, true, true};  // sides are groups of tied nodes
-        refuse_apart(point, point.first_port, point.first_port_2, all);
-        refuse_apart(point, point.first_port_2, point.end_port, all);
-      }
+      constexpr std::array<bool, 3> all = {true, true, true};  // sides are groups of tied nodes
+      refuse_apart(point, point.first_port, point.first_port_2, all);
+      refuse_apart(point, point.first_port_2, point.end_port, all);
+      refuse_apart(point, point.first_port, point.end_port, joined(point));
     }
   }
 
  private:
-  // One whose opening no load prescribes, and that none has released.
-  bool is_bonded(const Point& point) const {
-    if (!point.law || !point.law->is_tie() || point.is_wall) return false;
+  // Directions in which the law lets nothing move; none where a load of the step tightens it, or it has let go.
+  std::array<bool, 3> joined(const Point& point) const {
+    if (!point.law || point.is_wall) return {};
     const Interface* interface = surfaces_[static_cast<size_t>(point.members.front().surface)].interface;
-    return interface && !has_load(problem_, interface);
+    if (!interface || is_tightened_or_gone(interface)) return {};
+    std::array<bool, 3> joined = point.law->tangent(point.law->initial(), false).holds;
+    for (size_t d = 0; d < 3; ++d) joined[d] = joined[d] && point.has_law[d];
+    return joined;
+  }
+
+  bool is_tightened_or_gone(const Interface* interface) const {
+    for (const StepPtr& step : problem_.steps) {
+      const bool is_this = step.get() == &step_;
+      for (const LoadPtr& load : step->loads)
+        for (const Effect& effect : load->effects()) {
+          const auto* release = std::get_if<Release>(&effect);
+          if (release && release->on.get() == interface && (!is_this || release->at <= 0.0)) return true;
+          const Tightening* bolt = tightening(effect);
+          if (is_this && bolt && bolt->on.get() == interface) return true;
+        }
+      if (is_this) break;
+    }
+    return false;
   }
 
   void refuse_apart(const Point& point, int first, int end, const std::array<bool, 3>& directions) {
@@ -114,9 +128,9 @@ class TornTies {
     return holder;
   }
 
-  // The bonded interface between two ports, or one that the group has.
+  // The interface between two ports, or one that the group has.
   const Surface* surface_of(const Point& point) const {
-    if (!point.members.empty() && is_bonded(point)) return &surfaces_[static_cast<size_t>(point.members[0].surface)];
+    if (!point.members.empty()) return &surfaces_[static_cast<size_t>(point.members[0].surface)];
     if (point.first_tie == point.end_tie) return nullptr;
     return &surfaces_[static_cast<size_t>(exchange_.ties[static_cast<size_t>(point.first_tie)].surface)];
   }
@@ -129,7 +143,7 @@ class TornTies {
     const Vec3 along = axis + Vec3::Zero();  // no -0
     throw InputError(
         surface && surface->interface ? surface->interface->origin : problem_.origin,
-        fmt::format("step '{}': '{}' is bonded, but its sides are moved apart along ({:.3g}, {:.3g}, {:.3g}) at "
+        fmt::format("step '{}': '{}' joins its sides, but they are moved apart along ({:.3g}, {:.3g}, {:.3g}) at "
                     "({:.4g}, {:.4g}, {:.4g}) mm: '{}' by {}, '{}' by {}\n    leave these nodes out of one of them, or "
                     "drive one side alone: the interface carries the motion to the other",
                     step_.name, surface ? surface->name() : "a cut", along[0], along[1], along[2], at[0], at[1], at[2],

@@ -99,11 +99,8 @@ void Loads::add(const BodyForce& force, const LoadValue& value, const std::strin
   for (size_t i = 0; i < problem_.substructures.size(); ++i) {
     const Substructure& part = *problem_.substructures[i];
     LoadPattern pattern{static_cast<int>(i), {}, value, key, 0.0};
-    Points acceleration(3, part.mesh->n_nodes());
-    for (int node = 0; node < part.mesh->n_nodes(); ++node)
-      acceleration.col(node) = force.unit(part.mesh->nodes.col(node) + part.place);
-    const Points unit =
-        inertia(static_cast<int>(i), part.mesh->inside->acceleration(part.mesh->nodes, std::move(acceleration)));
+    const auto at = [&](const Vec3& x) -> Vec3 { return force.unit(x + part.place); };
+    const Points unit = inertia(static_cast<int>(i), part.mesh->inside->acceleration(part.mesh->nodes, at));
     if (unit.isZero(0.0)) continue;
     for (int node = 0; node < part.mesh->n_nodes(); ++node) pattern.nodes.emplace_back(node, unit.col(node));
     patterns_.push_back(std::move(pattern));

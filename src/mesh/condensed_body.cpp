@@ -60,6 +60,31 @@ Points CondensedBody::rigid_motion(const Points& x, const Vec3& about, const Vec
   return motion;
 }
 
+// Of a field a + G (x - c) about the centre of mass c, the force is m a, and the moment that of G S, S the integral of
+// (x - c)(x - c)^T over the mass: tr(J)/2 - J.
+Points CondensedBody::acceleration(const Points& x, const std::function<Vec3(const Vec3&)>& at) const {
+  const Vec3 near = x.col(0);
+  Mat motions(3 * n_nodes(), 6);
+  for (int m = 0; m < 3; ++m) {
+    motions.col(m) = flat(rigid_motion(x, near, Vec3::Unit(m), Vec3::Zero()));
+    motions.col(3 + m) = flat(rigid_motion(x, near, Vec3::Zero(), Vec3::Unit(m)));
+  }
+  const Eigen::Matrix<double, 6, 6> inertia = motions.transpose() * (mass_matrix * motions);
+  const double mass = inertia.topLeftCorner<3, 3>().trace() / 3.0;
+  if (mass <= 0.0) return rigid_motion(x, near, at(near), Vec3::Zero());
+  const Vec3 arm = Vec3(inertia(1, 5), inertia(2, 3), inertia(0, 4)) / mass;
+  const Mat3 about_centre =
+      inertia.bottomRightCorner<3, 3>() - mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  const Vec3 centre = near + arm, uniform = at(centre);
+  const double length = std::max(x.colwise().norm().maxCoeff(), 1e-3);
+  Mat3 gradient;
+  for (int i = 0; i < 3; ++i) gradient.col(i) = (at(centre + length * Vec3::Unit(i)) - uniform) / length;
+  if (gradient.norm() * length <= 1e-12 * uniform.norm()) return rigid_motion(x, centre, uniform, Vec3::Zero());
+  const Mat3 moved = gradient * (0.5 * about_centre.trace() * Mat3::Identity() - about_centre);
+  const Vec3 moment(moved(2, 1) - moved(1, 2), moved(0, 2) - moved(2, 0), moved(1, 0) - moved(0, 1));
+  return rigid_motion(x, centre, uniform, about_centre.completeOrthogonalDecomposition().solve(moment));
+}
+
 void CondensedBody::find_carried(const Points& x) {
   carried.resize(0, 0);
   std::vector<int> own;

@@ -38,10 +38,8 @@ struct CondensedBody final : Interior {
   using Interior::rigid_motion;
   Points rigid_motion(const Points& x, const Vec3& about, const Vec3& translation, const Vec3& rotation) const override;
   ResistedMotions resisted_motions(const Points& x) const override;
-  // Gravity is uniform, and a motion as a whole is all that is known of the inside.
-  Points acceleration(const Points& x, Points given) const override {
-    return rigid_motion(x, given.col(0), Vec3::Zero());
-  }
+  Points acceleration(const Points& x, const std::function<Vec3(const Vec3&)>& at) const override;
+  bool is_rigid() const { return stiffness.norm() == 0.0; }
   double mass(double) const override { return mass_of_parts; }
   std::shared_ptr<const Interior> turned(const Mat3& turn, const Points& x) const override;
   void add_to(Fnv1a& digest) const override;

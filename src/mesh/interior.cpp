@@ -18,7 +18,11 @@ struct Cells final : Interior {
     return motion;
   }
   ResistedMotions resisted_motions(const Points&) const override { return {6, 0}; }
-  Points acceleration(const Points&, Points given) const override { return given; }
+  Points acceleration(const Points& x, const std::function<Vec3(const Vec3&)>& at) const override {
+    Points nodal(3, x.cols());
+    for (Eigen::Index node = 0; node < x.cols(); ++node) nodal.col(node) = at(x.col(node));
+    return nodal;
+  }
   double mass(double of_cells) const override { return of_cells; }
   std::shared_ptr<const Interior> turned(const Mat3&, const Points&) const override { return of_cells(); }
   void add_to(Fnv1a&) const override {}

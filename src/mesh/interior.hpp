@@ -2,6 +2,7 @@
 // follow and what holds it are asked here, and are the same question for both.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -42,8 +43,9 @@ struct Interior {
   // What resists motions as a whole from inside (a support that was condensed with the body): each motion m =
   // (translation at the origin, rotation about it) is resisted by columns c with c . m != 0. 6 x number of them.
   virtual ResistedMotions resisted_motions(const Points& x) const = 0;
-  // Nodal values of an acceleration that a load gives to all of the body: as given, or what is known inside of it.
-  virtual Points acceleration(const Points& x, Points given) const = 0;
+  // Nodal values of an acceleration (m/s^2, of a place in the axes of x) that a load gives to all of the body, at most
+  // linear in the place: that of each node; of matrices that of a motion as a whole with the same force and moment.
+  virtual Points acceleration(const Points& x, const std::function<Vec3(const Vec3&)>& at) const = 0;
   virtual double mass(double of_cells) const = 0;  // kg; of_cells: density times volume
   virtual std::shared_ptr<const Interior> turned(const Mat3& turn, const Points& x) const = 0;  // x: as turned
   virtual void add_to(Fnv1a& digest) const = 0;

@@ -129,9 +129,12 @@ Mat unbroken_motions(const LinearAssembly& assembly, const Problem& problem, con
   const SparseMatrix broken = lumps - SparseMatrix(assembly.map * z);
   Mat gram = Mat(SparseMatrix(broken.transpose()) * broken);
   if (assembly.springs.rows() > 0) {
+    // Where supports hold nearly all nodes of a sum, what is left of it may be rounding.
+    constexpr double little = 1e-3;
     const Vec norms =
         (assembly.springs.cwiseProduct(assembly.springs) * Vec::Ones(assembly.springs.cols())).cwiseSqrt();
-    const SparseMatrix felt = diagonal_matrix(norms.cwiseInverse()) * SparseMatrix(assembly.springs * z);
+    const Vec sizes = norms.cwiseMax(little * norms.maxCoeff());
+    const SparseMatrix felt = diagonal_matrix(sizes.cwiseInverse()) * SparseMatrix(assembly.springs * z);
     gram += Mat(SparseMatrix(felt.transpose()) * felt);
   }
   const Mat of_ring = motions_of_ring(assembly, problem, lumps);

@@ -804,23 +804,31 @@ problem{ name = "p", substructures = { bar }, supports = { support.fixed{ name =
 const std::string torn = R"(
 local foot = substructure{ name = "foot", material = metal, mesh = mesh.box{ size = { 8*mm, 6*mm, 6*mm }, cells = { 1, 1, 1 } } }
 local arm = substructure{ name = "arm", material = metal, mesh = mesh.box{ origin = { 8*mm, 0, 0 }, size = { 6*mm, 6*mm, (p.kind == 0 and 4 or 6)*mm }, cells = { 1, 1, 1 } } }
-local glue = interface.bonded{ name = "glue", between = { foot:face "xmax", arm:face "xmin" } }
+local between = { foot:face "xmax", arm:face "xmin" }
+local glue = p.kind == 3 and interface.iwan{ name = "glue", between = between, slip = 1*MPa, stiffness = 1e13, chi = -0.5, beta = 0.1 } or interface.bonded{ name = "glue", between = between }
 local base = support.fixed{ name = "base", on = { foot:face "zmin", p.kind == 2 and arm:face "zmin" or nil } }
-local steps = ({ [0] = function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { load.velocity{ on = arm:face "xmin", x = -0.2 } } } end,
+local drive = load.velocity{ on = arm:face "xmin", x = -0.2 }
+local steps = ({ [0] = function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { drive } } end,
   function() return step.static{ name = "lift", loads = { load.displacement{ on = arm:face "zmin", z = 10*um } } } end,
-  function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { load.base_acceleration{ on = base, direction = { 1, 0, 0 }, history = 1e4 } } } end })[p.kind]()
+  function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { load.base_acceleration{ on = base, direction = { 1, 0, 0 }, history = 1e4 } } } end,
+  function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { drive } } end,
+  function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { drive, load.release{ on = glue, at = 5*us } } } end,
+  function() return step.dynamic{ name = "shock", duration = 10*us, dt = 1*us, loads = { drive, load.release{ on = glue, at = 0 } } } end })[p.kind]()
 problem{ name = "torn", substructures = { foot, arm }, interfaces = { glue }, supports = { base }, steps = { steps }, outputs = { output.joint{ name = "bond", on = glue } } }:run{}
 )";
 
 TEST(TornBond, is_refused_where_supports_and_loads_move_its_sides_apart) {
-  EXPECT_NE(error_of(torn, 0).find("step 'shock': 'glue' is bonded, but its sides are moved apart along (1, 0, 0) at "
+  EXPECT_NE(error_of(torn, 0).find("step 'shock': 'glue' joins its sides, but they are moved apart along (1, 0, 0) at "
                                    "(8, 0, 0) mm: 'foot' by support 'base', 'arm' by a prescribed motion"),
             std::string::npos)
       << error_of(torn, 0);
-  EXPECT_NE(error_of(torn, 1).find("step 'lift': 'glue' is bonded, but its sides are moved apart along (0, 0, 1) at "),
+  EXPECT_NE(error_of(torn, 1).find("step 'lift': 'glue' joins its sides, but they are moved apart along (0, 0, 1) at "),
             std::string::npos)
       << error_of(torn, 1);
-  EXPECT_EQ(error_of(torn, 2), "");
+  for (const int kind : {3, 4})
+    EXPECT_NE(error_of(torn, kind).find("'glue' joins its sides, but they are moved apart along "), std::string::npos)
+        << kind << error_of(torn, kind);
+  for (const int kind : {2, 5}) EXPECT_EQ(error_of(torn, kind), "");
 }
 
 }  // namespace

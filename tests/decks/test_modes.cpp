@@ -347,6 +347,26 @@ problem{ name = "beam", substructures = { bar, block }, steps = { step.static{ n
     }
 }
 
+// Of sums over faces that do not match, rows of which planes of symmetry hold nearly all nodes are rounding.
+TEST(Modes, of_unlike_blocks_on_planes_of_symmetry_have_the_motions_along_these_at_rest) {
+  const std::string text = R"(
+local p = param{ planes = 1 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local one = substructure{ name = "one", material = steel, mesh = mesh.box{ size = { 0.1, 0.06, 0.02 }, cells = { 4, 4, 2 } } }
+local two = substructure{ name = "two", material = steel, mesh = mesh.box{ origin = { 0.1, 0, 0 }, size = { 0.05, 0.06, 0.02 }, cells = { 3, 5, 2 } } }
+local glue = interface.bonded{ name = "glue", between = { one:face "xmax", two:face "xmin" } }
+local z = support.symmetry{ name = "z", on = { one:face "zmin", two:face "zmin" } }
+local y = support.symmetry{ name = "y", on = { one:face "ymin", two:face "ymin" } }
+problem{ name = "blocks", substructures = { one, two }, interfaces = { glue }, supports = { z, p.planes == 2 and y or nil }, steps = { step.static{ name = "rest" } },
+  outputs = { output.modes{ name = "m", n = 8 } } }:run{}
+)";
+  for (const auto& [planes, n_free] : {std::pair{"1", 3}, {"2", 1}}) {
+    const DeckRun run = modes_of(text, {{"planes", planes}});
+    EXPECT_EQ(value_of(run, "free_motions"), n_free);
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(frequencies(run).at(static_cast<size_t>(i)) < 1.0, i < n_free) << i;
+  }
+}
+
 TEST(Modes, of_two_bodies_apart_are_twelve_at_rest) {
   const DeckRun apart = modes_of(blocks("contact{ " + faces + ", gap = 10*um }"));
   EXPECT_EQ(value_of(apart, "free_motions"), 12);

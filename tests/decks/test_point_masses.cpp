@@ -134,6 +134,34 @@ problem{ name = "push", substructures = { bar, box }, steps = { step.dynamic{ na
   }
 }
 
+// About an axis through its centre that is none of its principal ones a mass pulls by no force, and by the moment
+// -w x J w: a bar bends as by a couple at its end. On a plane of symmetry it is not held, which is said.
+TEST(PointMasses, bend_a_bar_that_spins_by_their_products_of_inertia) {
+  constexpr double product = -5e-5, speed = 500.0, long_side = 0.1, modulus = 200e9, second = 1e-8 / 12;
+  for (const char* motion : {"mean", "rigid"}) {
+    testing::internal::CaptureStderr();
+    const DeckRun run = run_text(std::string(R"(
+local light = material.elastic{ name = "light", young = 200*GPa, poisson = 0, density = 10 }
+local bar = substructure{ name = "bar", material = light,
+  mesh = mesh.box{ origin = { -5*mm, -5*mm, 0 }, size = { 10*mm, 10*mm, 100*mm }, cells = { 2, 2, 20 }, order = 2 } }
+local box = mass.point{ name = "box", on = bar:face "zmax", mass = 0.2, inertia = { 1e-4, 1.2e-4, 1e-4, 0, -5e-5, 0 }, at = { 0, 0, 100*mm }, motion = ")") +
+                                 motion + R"(" }
+local base, plane = support.fixed{ name = "base", on = bar:face "zmin" }, support.symmetry{ name = "plane", on = bar:face "ymin" }
+local spin = step.static{ name = "spin", loads = { load.spin{ speed = 500, axis = { 0, 0, 1 } } }, supports = { base } }
+problem{ name = "spin", substructures = { bar, box }, supports = { base, plane }, steps = { spin, step.static{ name = "after", after = spin, supports = { base, plane } } },
+  outputs = { output.history{ name = "tip", on = bar:face "zmax", quantity = "displacement" } } }:run{}
+)")
+                            .at(0);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("rigid body 'box' is joined to face 'bar.zmax', which ends on the plane of support.symmetry "
+                        "'plane': that plane does not hold the body"),
+              std::string::npos)
+        << said;
+    const double moment = speed * speed * -product;
+    EXPECT_NEAR(run.column("tip", "x").at(1), moment * long_side * long_side / (2 * modulus * second), 1e-9) << motion;
+  }
+}
+
 // A mass on two feet, without moments of its own, weighs on both; its bonds are outputs' to ask for.
 TEST(PointMasses, stand_on_several_faces) {
   const DeckRun run = run_text(R"(
