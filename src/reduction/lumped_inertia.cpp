@@ -105,12 +105,27 @@ LumpedInertia worst_of(const Moments& moments, const Points& nodes, bool has_twi
   return worst;
 }
 
+// Explicit motions have masses at nodes alone, whatever the cells.
+bool is_asked_to_be_explicit(const Problem& problem, const Substructure& part) {
+  return part.integration.value_or(problem.solver.integration) == IntegrationChoice::explicitly;
+}
+
+// The program leaves hex20 and prism15 implicit unless it is asked (manual, S12).
+bool may_be_explicit(const Problem& problem, const Substructure& part) {
+  const IntegrationChoice asked = part.integration.value_or(problem.solver.integration);
+  return asked == IntegrationChoice::explicitly ||
+         (asked == IntegrationChoice::as_cheapest &&
+          std::none_of(part.mesh->blocks.begin(), part.mesh->blocks.end(), [](const CellBlock& block) {
+            return block.type == CellType::hex20 || block.type == CellType::prism15;
+          }));
+}
+
 // Substructures that are bonded to each other.
 struct Whole {
   std::vector<SubstructurePtr> parts;
   LumpedInertia inertia;
 
-  void measure();
+  void measure(const Problem& problem);
   double behind() const { return 1.0 - 1.0 / inertia.ratio; }
   std::string label() const {
     std::vector<std::string> names;
@@ -119,12 +134,12 @@ struct Whole {
   }
 };
 
-void Whole::measure() {
+void Whole::measure(const Problem& problem) {
   Moments moments;
   Points nodes(3, 0);
   for (const SubstructurePtr& part : parts) {
     const Mesh& mesh = *part->mesh;
-    moments.add(mesh, part->material.density, !has_consistent_mass(mesh));
+    moments.add(mesh, part->material.density, !has_consistent_mass(mesh) || is_asked_to_be_explicit(problem, *part));
     nodes.conservativeResize(3, nodes.cols() + mesh.n_nodes());
     nodes.rightCols(mesh.n_nodes()) = mesh.nodes;
   }
@@ -170,7 +185,10 @@ struct Asked {
     for (const OutputPtr& output : problem.outputs) swings = swings || has_modes(*output);
   }
   // Modes have the consistent mass of such cells; motions may not, where they are explicit.
-  bool lumps(const Mesh& mesh) const { return mesh.has_cells() && (moves || (swings && !has_consistent_mass(mesh))); }
+  bool lumps(const Problem& problem, const Substructure& part) const {
+    if (!part.mesh->has_cells()) return false;
+    return has_consistent_mass(*part.mesh) ? moves && may_be_explicit(problem, part) : moves || swings;
+  }
 };
 
 bool is_tuned_implicitly(const Problem& problem) {
@@ -193,12 +211,15 @@ void doubt_slow_turning(const Problem& problem) {
   for (Whole& whole : what_turns_as_a_whole(problem)) {
     std::vector<const Mesh*> meshes;
     for (const SubstructurePtr& part : whole.parts) meshes.push_back(part->mesh.get());
-    const auto lumps = [&](const Mesh* mesh) { return asked.lumps(*mesh) && !has_consistent_mass(*mesh); };
+    const auto lumps = [&](const SubstructurePtr& part) {
+      return asked.lumps(problem, *part) &&
+             (!has_consistent_mass(*part->mesh) || is_asked_to_be_explicit(problem, *part));
+    };
     const auto has_cells = [](const Mesh* mesh) { return mesh->has_cells(); };
-    if (!std::all_of(meshes.begin(), meshes.end(), has_cells) || !std::any_of(meshes.begin(), meshes.end(), lumps) ||
-        !told.insert(meshes).second)
+    if (!std::all_of(meshes.begin(), meshes.end(), has_cells) ||
+        !std::any_of(whole.parts.begin(), whole.parts.end(), lumps) || !told.insert(meshes).second)
       continue;
-    whole.measure();
+    whole.measure(problem);
     if (whole.behind() >= slow) slow_ones.push_back(std::move(whole));
   }
   if (slow_ones.empty()) return;
@@ -213,10 +234,11 @@ void doubt_slow_turning(const Problem& problem) {
   warn(fmt::format(
       "{}problem '{}': {}{} turns as a whole, and its masses at the nodes have {:.3g} times the moment of "
       "inertia of the material about the axis ({:.2g}, {:.2g}, {:.2g}): under a torque it spins {:.2g} % too slowly, "
-      "and swings on springs {:.2g} % too slowly; use more cells (n across: 2/n^2 too much), or cells of order two{}",
+      "and swings on springs {:.2g} % too slowly; use more cells (n across: 2/n^2 too much), or {}{}",
       worst.parts.front()->origin.prefix(), problem.name, worst.parts.size() == 1 ? "substructure " : "", worst.label(),
       inertia.ratio, inertia.axis[0], inertia.axis[1], inertia.axis[2], 100.0 * worst.behind(),
-      100.0 * (1.0 - 1.0 / std::sqrt(inertia.ratio)), others));
+      100.0 * (1.0 - 1.0 / std::sqrt(inertia.ratio)),
+      has_consistent_mass(*worst.parts.front()->mesh) ? "integration = \"implicit\"" : "cells of order two", others));
 }
 
 void doubt_lumped_inertia(const Problem& problem) {
@@ -225,7 +247,7 @@ void doubt_lumped_inertia(const Problem& problem) {
   const Asked asked(problem);
   std::set<const Mesh*> told;
   for (const SubstructurePtr& part : problem.substructures) {
-    if (!asked.lumps(*part->mesh) || !told.insert(part->mesh.get()).second) continue;
+    if (!asked.lumps(problem, *part) || !told.insert(part->mesh.get()).second) continue;
     const LumpedInertia lumped = lumped_inertia(*part->mesh);
     if (lumped.ratio < most || !is_slender(part->mesh->nodes, lumped.axis) ||
         is_kept_from_turning(problem, part, lumped.axis))
