@@ -10,12 +10,9 @@ namespace dygita {
 
 namespace {
 
-// Sums of the forces and of their moments in turns about the three axes.
-using TurnSums = Eigen::Matrix<double, 18, 1>;
-
 // What a unit in entry (i, j) of the block of an edge adds to these: forces e_i d_j on one node, -e_j d_i on the other.
-TurnSums of_entry(const Vec3& one, const Vec3& other, int i, int j) {
-  TurnSums sums;
+EdgeBlocks::TurnSums of_entry(const Vec3& one, const Vec3& other, int i, int j) {
+  EdgeBlocks::TurnSums sums;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 d = Vec3::Unit(axis).cross(other - one);
     const Vec3 on_one = d[j] * Vec3::Unit(i), on_other = -d[i] * Vec3::Unit(j);
@@ -50,42 +47,56 @@ EdgeBlocks::EdgeBlocks(const SparseMatrix& stiffness, const Points& places) {
   balance_turns(places);
 }
 
-// The sums that rounding has left, some 1e-7 of a stiffness, are a spring about where the step began, and a free piece
-// that spins stores energy in it. Entries change by as much as each is rounded by until none is left; those on the
-// diagonals alone where the whole is symmetric to the bit, as of regular hexahedra: it stays so.
-void EdgeBlocks::balance_turns(const Points& places) {
-  constexpr int n_passes = 3;
-  constexpr double rounding = 6e-8;  // of an entry
-  constexpr double nothing = 1e-13;  // of the largest entry
-  if (n_nodes() == 0) return;
-  const Vec3 centre = places.rowwise().mean();
-  const double size = std::sqrt((places.colwise() - centre).colwise().squaredNorm().maxCoeff());
-  const auto place = [&](int node) { return Vec3((places.col(node) - centre) / size); };
-  const auto for_each_entry = [&](auto&& visit) {
-    float* entry = blocks_.data();
-    for (int a = 0; a < n_nodes(); ++a)
-      for (int e = starts_[a]; e < starts_[a + 1]; ++e)
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j, ++entry)
-            if (*entry != 0.0F && !visit(*entry, of_entry(place(a), place(others_[e]), i, j))) return;
-  };
+EdgeBlocks::TurnSums EdgeBlocks::sums_of_turns(const Points& arms) const {
   TurnSums sums = TurnSums::Zero();
+  std::vector<double> x(4 * static_cast<size_t>(n_nodes()), 0.0), y(x.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::fill(y.begin(), y.end(), 0.0);
+    for (Eigen::Index i = 0; i < arms.cols(); ++i)
+      Eigen::Map<Vec3>(x.data() + 4 * i) = Vec3::Unit(axis).cross(arms.col(i));
+    add_product(x.data(), y.data());
+    for (Eigen::Index i = 0; i < arms.cols(); ++i) {
+      const Vec3 force = Eigen::Map<const Vec3>(y.data() + 4 * i);
+      sums.segment<3>(3 * axis) += force;
+      sums.segment<3>(9 + 3 * axis) += arms.col(i).cross(force);
+    }
+  }
+  return sums;
+}
+
+// The sums that rounding has left, some 1e-7 of a stiffness, are a spring about where the step began, and a free piece
+// that spins stores energy in it. Entries of some edges, evenly spread, change by as much as each is rounded by until
+// none is left; those on the diagonals alone where the whole is symmetric to the bit, as of regular hexahedra: it stays
+// so.
+void EdgeBlocks::balance_turns(const Points& places) {
+  constexpr size_t n_passes = 3, most_edges = 20000;
+  constexpr double rounding = 6e-8;  // of an entry
+  if (others_.empty()) return;
+  const Vec3 centre = places.rowwise().mean();
+  const Points arms =
+      (places.colwise() - centre) / std::sqrt((places.colwise() - centre).colwise().squaredNorm().maxCoeff());
+  TurnSums sums = sums_of_turns(arms);
   double largest = 0.0;
-  for_each_entry([&](float entry, const TurnSums& own) {
-    sums += static_cast<double>(entry) * own;
-    largest = std::max(largest, static_cast<double>(std::abs(entry)));
-    return true;
-  });
-  const bool is_symmetric = sums.head<9>().norm() < 1e-12 * largest;
-  for (int pass = 0; pass < n_passes; ++pass)
-    for_each_entry([&](float& entry, const TurnSums& own) {
-      if (own.isZero(1e-6) || (is_symmetric && !own.head<9>().isZero(0.0))) return true;
-      const double wanted = -sums.dot(own) / own.squaredNorm(), most = rounding * std::abs(entry);
-      const auto changed = static_cast<float>(entry + std::clamp(wanted, -most, most));
-      sums += (static_cast<double>(changed) - static_cast<double>(entry)) * own;
-      entry = changed;
-      return sums.norm() > nothing * largest;
-    });
+  for (const float entry : blocks_) largest = std::max(largest, static_cast<double>(std::abs(entry)));
+  const double size = largest * std::sqrt(static_cast<double>(others_.size()));
+  const bool is_symmetric = sums.head<9>().norm() < 1e-12 * size;
+  const auto change = [&](float& entry, const TurnSums& own) {
+    if (own.isZero(1e-6) || (is_symmetric && !own.head<9>().isZero(0.0))) return;
+    const double wanted = -sums.dot(own) / own.squaredNorm(), most = rounding * std::abs(entry);
+    const auto changed = static_cast<float>(entry + std::clamp(wanted, -most, most));
+    sums += (static_cast<double>(changed) - static_cast<double>(entry)) * own;
+    entry = changed;
+  };
+  const size_t stride = 1 + others_.size() / most_edges;
+  for (size_t pass = 0; pass < n_passes; ++pass)
+    for (int a = 0; a < n_nodes(); ++a)
+      for (auto e = static_cast<size_t>(starts_[a]); e < static_cast<size_t>(starts_[a + 1]); ++e) {
+        if (e % stride != pass % stride || sums.norm() < 1e-13 * size) continue;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            if (float& entry = blocks_[9 * e + static_cast<size_t>(3 * i + j)]; entry != 0.0F)
+              change(entry, of_entry(arms.col(a), arms.col(others_[e]), i, j));
+      }
 }
 
 void EdgeBlocks::add_product(const double* x, double* y) const {

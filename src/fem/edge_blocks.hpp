@@ -14,6 +14,9 @@ namespace dygita {
 // four numbers a node, the fourth of them zero: what a register takes.
 class EdgeBlocks {
  public:
+  // Sums of the forces and of their moments in turns about the three axes.
+  using TurnSums = Eigen::Matrix<double, 18, 1>;
+
   // stiffness: symmetric, 3n x 3n, with the 3x3 block pattern of `assemble`, rows adding up to zero. places: of the
   // nodes, 3 x n, m.
   EdgeBlocks(const SparseMatrix& stiffness, const Points& places);
@@ -24,6 +27,7 @@ class EdgeBlocks {
   double bytes() const { return 4.0 * static_cast<double>(starts_.size() + others_.size() + blocks_.size()); }
 
  private:
+  TurnSums sums_of_turns(const Points& arms) const;
   void balance_turns(const Points& places);
 
   std::vector<int> starts_, others_;

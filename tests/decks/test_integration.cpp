@@ -103,13 +103,14 @@ TEST(Integration, tuned_masses_close_the_balance_too) {
   EXPECT_LT(imbalance(run_text(stack, with(mixed, {{"tuned", "1"}, {"mu", "0"}})).at(0)), 1e-8);
 }
 
-// The second step starts with velocities of which momenta have to be found.
+// The second step starts with velocities of which momenta have to be found. Its forces are of the stiffness in double
+// precision, those of the first in single: what that leaves, friction and impacts make some ten times larger here.
 TEST(Integration, a_step_with_tuned_masses_goes_on_where_another_ended) {
   const Settings tuned = with(all_explicit, {{"tuned", "1"}, {"duration", "10"}, {"n", "4"}});
   const DeckRun whole = run_text(stack, tuned).at(0), parts = run_text(stack, with(tuned, {{"parts", "2"}})).at(0);
   for (const char* axis : {"x", "y", "z"})
     EXPECT_LT(std::abs(whole.column("corner", axis).back() - parts.column("corner", axis).back()),
-              1e-6 * largest(whole.column("corner", axis)))
+              1e-5 * largest(whole.column("corner", axis)))
         << axis;
   EXPECT_LT(imbalance(parts), 1e-12);
 }
