@@ -130,7 +130,8 @@ class TornTies {
 
   // The interface between two ports, or one that the group has.
   const Surface* surface_of(const Point& point) const {
-    if (!point.members.empty()) return &surfaces_[static_cast<size_t>(point.members[0].surface)];
+    const std::array<bool, 3> of_law = joined(point);
+    if (of_law[0] || of_law[1] || of_law[2]) return &surfaces_[static_cast<size_t>(point.members[0].surface)];
     if (point.first_tie == point.end_tie) return nullptr;
     return &surfaces_[static_cast<size_t>(exchange_.ties[static_cast<size_t>(point.first_tie)].surface)];
   }

@@ -116,4 +116,15 @@ bool has_consistent_mass(const Mesh& mesh) {
                      [](const CellBlock& block) { return cell_shape(block.type).inertia == Inertia::consistent; });
 }
 
+bool loses_by_diagonal(const Mesh& mesh) {
+  const auto has_no_middle = [](const LocalFacet& facet) {
+    const FacetShape& shape = facet_shape(facet.type);
+    return shape.n_corners == 4 && nodes_per_facet(facet.type) == 2 * shape.n_corners;
+  };
+  return std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const CellBlock& block) {
+    const std::span<const LocalFacet> facets = cell_shape(block.type).facets;
+    return std::any_of(facets.begin(), facets.end(), has_no_middle);
+  });
+}
+
 }  // namespace dygita

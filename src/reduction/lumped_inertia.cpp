@@ -19,6 +19,7 @@
 #include "model/places.hpp"
 #include "model/support.hpp"
 #include "numerics/dense.hpp"
+#include "step/integration.hpp"
 
 namespace dygita {
 
@@ -107,17 +108,13 @@ LumpedInertia worst_of(const Moments& moments, const Points& nodes, bool has_twi
 
 // Explicit motions have masses at nodes alone, whatever the cells.
 bool is_asked_to_be_explicit(const Problem& problem, const Substructure& part) {
-  return part.integration.value_or(problem.solver.integration) == IntegrationChoice::explicitly;
+  return !problem.monolithic && asked_of(problem, part) == IntegrationChoice::explicitly;
 }
 
-// The program leaves hex20 and prism15 implicit unless it is asked (manual, S12).
 bool may_be_explicit(const Problem& problem, const Substructure& part) {
-  const IntegrationChoice asked = part.integration.value_or(problem.solver.integration);
-  return asked == IntegrationChoice::explicitly ||
-         (asked == IntegrationChoice::as_cheapest &&
-          std::none_of(part.mesh->blocks.begin(), part.mesh->blocks.end(), [](const CellBlock& block) {
-            return block.type == CellType::hex20 || block.type == CellType::prism15;
-          }));
+  return is_asked_to_be_explicit(problem, part) ||
+         (!problem.monolithic && asked_of(problem, part) == IntegrationChoice::as_cheapest &&
+          !loses_by_diagonal(*part.mesh));
 }
 
 // Substructures that are bonded to each other.

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
+#include "fem/mass.hpp"
 #include "model/model.hpp"
 #include "partition/all_pieces.hpp"
 #include "partition/mass_choice.hpp"
@@ -113,20 +114,6 @@ std::unordered_map<int, Held> held_of(const Cut& cut, int piece, const Condition
   for (size_t i = 0; i < own.nodes.size(); ++i)
     if (const Held* h = conditions.at(own.part, own.nodes[i])) held.emplace(static_cast<int>(i), *h);
   return held;
-}
-
-// Cells of order two without nodes in the middle of quadrangles, whose scaled diagonal is three times as far off as
-// that of tetrahedra: at equal cost their consistent mass is more accurate in implicit increments (manual, explicit
-// substructures).
-bool loses_by_diagonal(const Mesh& mesh) {
-  const auto has_no_middle = [](const LocalFacet& facet) {
-    const FacetShape& shape = facet_shape(facet.type);
-    return shape.n_corners == 4 && nodes_per_facet(facet.type) == 2 * shape.n_corners;
-  };
-  return std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const CellBlock& block) {
-    const std::span<const LocalFacet> facets = cell_shape(block.type).facets;
-    return std::any_of(facets.begin(), facets.end(), has_no_middle);
-  });
 }
 
 class Chooser {

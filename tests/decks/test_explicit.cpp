@@ -351,8 +351,8 @@ TEST(Explicit, check_tells_the_substeps_that_the_run_takes) {
   EXPECT_NE(report.find("in " + std::to_string(n) + " substeps each"), std::string::npos) << report;
 }
 
-// A bar that a push at one end makes spin, free for thirty of its oscillations, as it lies and turned with its load. In
-// stiffnesses of single precision a turn had forces, like a spring about where it began.
+// A bar that a push at one end makes spin, as it lies and turned with its load. In stiffnesses of single precision a
+// turn had forces, like a spring about where it began.
 TEST(Explicit, a_free_bar_that_spins_is_the_same_however_it_lies) {
   const std::string bar = R"(
 local p = param{ angle = 0, quadratic = 0 }
